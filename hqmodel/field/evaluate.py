@@ -1,0 +1,257 @@
+"""The field, its derivatives and the curvature of its level sets, in float64 (eqs. 13, 14, 23, 26, 44).
+
+Two forms of one function: F itself, as the contract defines it, and the **log ratio** L = ln P - ln N, where F = P - N, P the sum
+of what adds and N of what carves, the level included. L has F's sign and surface, neither over- nor underflows, and is for a
+lone shape with c = w = 1 just beta (C - H): what roots are sought and grids are sampled in.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .powers import CEILING, group_powers, scaled, strip_functions, term_sums
+from .terms import HUGE, Array, Indices, Terms
+
+# Strips times points worked on at once: what stays in a processor's cache.
+_CHUNK = 1 << 15
+# exp of this is just inside float64.
+_TOP = 709.0
+_STEEP = 1e140
+
+
+class Curvature(NamedTuple):
+    """Gaussian and mean curvature, each (...,), in world units; mean positive on a sphere."""
+
+    gaussian: Array
+    mean: Array
+
+
+def value(terms: Terms, points: ArrayLike) -> Array:
+    """F at points (..., 3), shape (...,): positive inside, saturating at +-1.8e308 instead of overflowing (eq. 44)."""
+    return _by_chunk(terms, points, _value)
+
+
+def log_ratio(terms: Terms, points: ArrayLike) -> Array:
+    """L = ln P - ln N at points (..., 3), shape (...,): positive inside, zero on the surface; infinite only without terms."""
+    return _by_chunk(terms, points, lambda t, p: log_balance(t, exponents(t, _sums(t, p))))
+
+
+def gradient(terms: Terms, points: ArrayLike) -> Array:
+    """The gradient of F at points (..., 3), shape (..., 3), per world unit (eq. 23); 0 across a kink."""
+    return _by_chunk(terms, points, _gradient, columns=3)
+
+
+def log_gradient(terms: Terms, points: ArrayLike) -> tuple[Array, Array]:
+    """L (...,) and its gradient (..., 3) at points (..., 3); on the surface the gradient is F's in direction."""
+    both = _by_chunk(terms, points, _log_gradient, columns=4)
+    return both[..., 0], both[..., 1:]
+
+
+def curvature(terms: Terms, points: ArrayLike) -> Curvature:
+    """Curvatures at points (..., 3) of the level set through each (eq. 26; Goldman 2005, CAGD 22, sections 4.1 and 4.2).
+
+    At kinks (h = 0 under an exponent below 2), where they do not exist, the kinked strip is left out.
+    """
+    both = _by_chunk(terms, points, _curvature, columns=2)
+    return Curvature(both[..., 0], both[..., 1])
+
+
+def shaping_strip(terms: Terms, points: ArrayLike) -> Indices:
+    """For each point (..., 3) the strip whose share of the field's slope is largest: the face that a point belongs to."""
+    return _by_chunk(terms, points, _shaping_strip).astype(np.intp)
+
+
+def near_linear(terms: Terms, ratio: Array) -> Array:
+    """L made nearly linear across the surface, (...,): (H/C)^(1/gamma) turned inside out, for a lone shape.
+
+    Same sign as L, 1 at most; what to hand to anything that interpolates.
+    """
+    hard = float(np.max(terms.hardness[terms.positive], initial=1e-300))
+    steep = float(np.max(terms.outer, initial=1.0))
+    return 1.0 - np.maximum(1.0 - ratio / hard, 1e-300) ** (1.0 / steep)
+
+
+def exponents(terms: Terms, h_sums: Array) -> Array:
+    """T_k = ln |c_k| + beta_k (C_k - H_k), (K, P), from H, (K, P): finite always."""
+    with np.errstate(over="ignore"):
+        t = terms.hardness[:, None] * (terms.constant[:, None] - h_sums) + terms.log_coefficient[:, None]
+    return np.clip(t, -CEILING, CEILING)
+
+
+def log_balance(terms: Terms, t: Array, t_carving: Array | None = None) -> Array:
+    """L (P,) from the exponents T (K, P); for bounds the carving terms may take theirs from another array."""
+    positive = terms.positive
+    level = terms.level
+    gain = [t[positive]]
+    loss = [(t if t_carving is None else t_carving)[~positive]]
+    if level != 0:
+        (loss if level > 0 else gain).append(np.full((1, t.shape[1]), np.log(abs(level))))
+    p, n = log_sum(np.concatenate(gain)), log_sum(np.concatenate(loss))
+    with np.errstate(invalid="ignore"):
+        return np.where(p == n, 0.0, p - n)
+
+
+def log_sum(t: Array) -> Array:
+    """ln sum exp over the first axis; -inf where there is nothing to add."""
+    if len(t) <= 1:
+        return t[0] if len(t) else np.full(t.shape[1], -np.inf)
+    top = np.max(t, axis=0)
+    return top + np.log(np.sum(np.exp(t - top), axis=0))
+
+
+def _sums(terms: Terms, points: Array) -> Array:
+    u = np.abs(strip_functions(terms, points))
+    return term_sums(terms, group_powers(terms, u), u)
+
+
+def _relative(terms: Terms, t: Array) -> tuple[Array, Array]:
+    """Signed terms divided by the largest (K, P), and the logarithm of that (P,)."""
+    top = np.max(t, axis=0)
+    return np.sign(terms.coefficient)[:, None] * np.exp(t - top), top
+
+
+def _value(terms: Terms, points: Array) -> Array:
+    share, top = _relative(terms, exponents(terms, _sums(terms, points)))
+    with np.errstate(over="ignore"):
+        total = np.sum(share, axis=0) * np.exp(np.minimum(top, _TOP)) - terms.level
+    return np.nan_to_num(total)
+
+
+def _gradient(terms: Terms, points: Array) -> Array:
+    jet = _Jet(terms, points)
+    share, top = _relative(terms, jet.t)
+    with np.errstate(over="ignore"):
+        g = -np.einsum("kp,kpi->pi", share * terms.hardness[:, None], jet.slope) * np.exp(np.minimum(top, _TOP))[:, None]
+    return np.nan_to_num(g)
+
+
+def _log_gradient(terms: Terms, points: Array) -> Array:
+    jet = _Jet(terms, points)
+    balance = log_balance(terms, jet.t)
+    weights = np.empty_like(jet.t)
+    level = np.log(abs(terms.level)) if terms.level else -np.inf
+    for side, adds in ((terms.positive, True), (~terms.positive, False)):
+        total = log_sum(jet.t[side])
+        if (terms.level < 0) == adds:
+            total = np.logaddexp(total, level)
+        weights[side] = (1 if adds else -1) * np.exp(jet.t[side] - total)
+    return np.column_stack([balance, -np.einsum("kp,kpi->pi", weights * terms.hardness[:, None], jet.slope)])
+
+
+def _shaping_strip(terms: Terms, points: Array) -> Array:
+    jet = _Jet(terms, points)
+    share, _ = _relative(terms, jet.t)
+    pull = np.abs(jet.by_strip) * (np.abs(share) * terms.hardness[:, None])[terms.term_of_strip]
+    return np.argmax(pull * np.linalg.norm(terms.normal, axis=1)[:, None], axis=0).astype(float)
+
+
+def _curvature(terms: Terms, points: Array) -> Array:
+    jet = _Jet(terms, points)
+    share, _ = _relative(terms, jet.t)
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        lean = share * terms.hardness[:, None]
+        g = -np.einsum("kp,kpi->pi", lean, jet.slope)
+        bend = np.einsum("kp,kpi,kpj->pij", lean * terms.hardness[:, None], jet.slope, jet.slope)
+        bend -= np.einsum("kp,kpij->pij", lean, jet.bend())
+        length = np.linalg.norm(g, axis=1)
+        n = g / length[:, None]
+        bend /= length[:, None, None]
+        gaussian = np.einsum("pi,pij,pj->p", n, _adjugate(bend), n)
+        mean = (np.einsum("pi,pij,pj->p", n, bend, n) - np.trace(bend, axis1=1, axis2=2)) / 2
+    return np.nan_to_num(np.column_stack([gaussian, mean]))
+
+
+def _adjugate(m: Array) -> Array:
+    """The adjugate of symmetric 3 x 3 matrices (P, 3, 3)."""
+    a, b, c = m[:, 0], m[:, 1], m[:, 2]
+    return np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)], axis=2)
+
+
+class _Jet:
+    """T (K, P), the gradient of every H, (K, P, 3), and on demand their second derivatives.
+
+    Of a group with largest member m, shares r = |h|/m and s = sum r^g the derivatives by |h_a| are
+    G m^(G-1) s^(G/g-1) r_a^(g-1) and G m^(G-2) s^(G/g-2) [(G-g) r_a^(g-1) r_b^(g-1) + delta_ab (g-1) s r_a^(g-2)].
+    """
+
+    def __init__(self, terms: Terms, points: Array) -> None:
+        self.terms = terms
+        h = strip_functions(terms, points)
+        u = np.abs(h)
+        self.sign = np.sign(h)
+        self.t = exponents(terms, term_sums(terms, group_powers(terms, u), u))
+        self.largest, self.spread = scaled(terms, u)
+        self.share = u / np.maximum(self.largest, np.finfo(float).tiny)[terms.group_of_strip]
+        first = self._group_factor(1)[terms.group_of_strip]
+        self.by_strip = np.minimum(first * self._share_power(1), _STEEP) * self.sign
+        self.slope = self._to_terms(self.by_strip * terms.group_sign[terms.group_of_strip][:, None])
+
+    def _group_factor(self, order: int) -> Array:
+        """G m^(G-order) s^(G/g-order), (G, P); 0 at m = 0."""
+        terms = self.terms
+        ratio = terms.outer / terms.inner[terms.group_start]
+        with np.errstate(over="ignore", divide="ignore"):
+            power = np.minimum(self.largest ** (terms.outer - order)[:, None], _STEEP)
+            inside = np.minimum(self.spread ** (ratio - order)[:, None], 1e100)
+        return np.where(self.largest > 0, terms.outer[:, None] * np.minimum(power * inside, _STEEP), 0.0)
+
+    def _share_power(self, order: int) -> Array:
+        """r^(g-order), (S, P); 0 at r = 0 unless the exponent is 0."""
+        lowered = (self.terms.inner - order)[:, None]
+        with np.errstate(over="ignore", divide="ignore"):
+            power = np.minimum(self.share**lowered, 1e100)
+        return np.where((self.share > 0) | (lowered == 0), power, 0.0)
+
+    def _to_terms(self, by_strip: Array) -> Array:
+        """Sum of by_strip (S, P) times the normals over each term's strips, (K, P, 3)."""
+        terms = self.terms
+        first_strip = terms.group_start[terms.term_start]
+        parts = [np.add.reduceat(by_strip * terms.normal[:, i, None], first_strip, axis=0) for i in range(3)]
+        return np.clip(np.stack(parts, axis=2), -HUGE, HUGE)
+
+    def bend(self) -> Array:
+        """The second derivatives of every H, (K, P, 3, 3)."""
+        terms = self.terms
+        sign = terms.group_sign[:, None]
+        factor = self._group_factor(2)
+        diagonal = self._share_power(2) * ((factor * self.spread * sign)[terms.group_of_strip] * (terms.inner - 1)[:, None])
+        first_strip = terms.group_start[terms.term_start]
+        mixed = self._share_power(1) * self.sign
+        lean = np.stack([np.add.reduceat(mixed * terms.normal[:, i, None], terms.group_start, axis=0) for i in range(3)])
+        cross = factor * sign * (terms.outer - terms.inner[terms.group_start])[:, None]
+        result = np.empty((len(terms), diagonal.shape[1], 3, 3))
+        for i in range(3):
+            for j in range(i + 1):
+                own = diagonal * (terms.normal[:, i] * terms.normal[:, j])[:, None]
+                entry = np.add.reduceat(own, first_strip, axis=0)
+                entry += np.add.reduceat(cross * lean[i] * lean[j], terms.term_start, axis=0)
+                result[:, :, i, j] = result[:, :, j, i] = entry
+        return result
+
+
+def _by_chunk(terms: Terms, points: ArrayLike, work: Callable[[Terms, Array], Any], columns: int = 0) -> Array:
+    """Apply `work` to points (..., 3) a cacheful at a time; the result is (...,) or (..., columns).
+
+    A scene with nothing in it has F = -level everywhere.
+    """
+    where = np.asarray(points, dtype=float)
+    flat = where.reshape(-1, 3)
+    result = np.zeros((len(flat), columns) if columns else len(flat))
+    if not len(terms):
+        _fill_empty(terms, work, result)
+    else:
+        step = max(1, _CHUNK // len(terms.inner))
+        for start in range(0, len(flat), step):
+            result[start : start + step] = work(terms, flat[start : start + step])
+    return result.reshape(*where.shape[:-1], columns) if columns else result.reshape(where.shape[:-1])
+
+
+def _fill_empty(terms: Terms, work: Callable[[Terms, Array], Any], result: Array) -> None:
+    if work is _value:
+        result[:] = -terms.level
+    elif result.ndim == 1 or work is _log_gradient:
+        (result if result.ndim == 1 else result[:, 0])[:] = -np.inf if terms.level >= 0 else np.inf

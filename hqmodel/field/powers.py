@@ -1,0 +1,66 @@
+"""H_k from the strips' |h|: the one place where exponents are applied, used by values, derivatives and bounds alike.
+
+|h|^gamma leaves float64 easily (10^1000), so powers saturate at `CEILING`, groups are scaled by their largest member, and where
+a positive and a negative power both saturate their logarithms decide.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .terms import Array, Terms
+
+CEILING = 1e300
+
+
+def strip_functions(terms: Terms, points: Array) -> Array:
+    """h (S, P) of every strip at points (P, 3); finite wherever the points are numbers."""
+    return terms.normal @ np.clip(points, -1e150, 1e150).T + terms.offset[:, None]
+
+
+def group_powers(terms: Terms, u: Array) -> Array:
+    """(sum |h|^g)^(G/g) of every group, (G, P), from u = |h|, (S, P)."""
+    with np.errstate(over="ignore"):
+        if not terms.grouped:
+            return np.minimum(_power(u, terms.inner), CEILING)
+        largest, spread = scaled(terms, u)
+        ratio = terms.outer / terms.inner[terms.group_start]
+        return np.minimum(_power(largest, terms.outer) * np.minimum(spread ** ratio[:, None], CEILING), CEILING)
+
+
+def scaled(terms: Terms, u: Array) -> tuple[Array, Array]:
+    """Each group's largest |h| and sum (|h| / largest)^g, both (G, P); the sum lies between 1 and the number of strips."""
+    largest = np.maximum.reduceat(u, terms.group_start, axis=0)
+    share = u / np.maximum(largest, np.finfo(float).tiny)[terms.group_of_strip]
+    return largest, np.maximum(np.add.reduceat(_power(share, terms.inner), terms.group_start, axis=0), 1.0)
+
+
+def term_sums(terms: Terms, v: Array, u: Array) -> Array:
+    """H (K, P) from the group powers v (G, P); u only settles what overflowed."""
+    total = np.add.reduceat(v * terms.group_sign[:, None], terms.term_start, axis=0)
+    if terms.hyperbolic:
+        lost = np.flatnonzero(np.any(v >= CEILING, axis=0))
+        if lost.size:
+            total[:, lost] = _by_logarithm(terms, u[:, lost], total[:, lost])
+    return total
+
+
+def _power(base: Array, exponents: Array) -> Array:
+    """base ** exponents[:, None], quick where every exponent is 1 or 2."""
+    first = exponents[0] if len(exponents) else 1.0
+    if first in (1.0, 2.0) and bool(np.all(exponents == first)):
+        return base if first == 1.0 else base * base
+    result: Array = base ** exponents[:, None]
+    return result
+
+
+def _by_logarithm(terms: Terms, u: Array, total: Array) -> Array:
+    """H where powers overflow: its sign and saturated size from the logarithms of the powers."""
+    with np.errstate(divide="ignore"):
+        largest, spread = scaled(terms, u)
+        ratio = terms.outer / terms.inner[terms.group_start]
+        logs = np.maximum(terms.outer[:, None] * np.log(largest) + ratio[:, None] * np.log(spread), -1e4)
+    top = np.maximum.reduceat(logs, terms.term_start, axis=0)
+    parts = terms.group_sign[:, None] * np.exp(logs - top[terms.term_of_group])
+    rest = np.add.reduceat(parts, terms.term_start, axis=0)
+    return np.where(top > np.log(CEILING), np.sign(rest) * CEILING, total)

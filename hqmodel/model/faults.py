@@ -1,0 +1,65 @@
+"""From pydantic's errors to one clear line each: ``shapes[0].strips[2].gamma: expected ..., got ...``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pydantic import ValidationError
+
+from .fields import FIELDS, pattern, place, shown
+
+_KINDS = {
+    "string": "text",
+    "bool": "true or false",
+    "dict": "an object",
+    "model": "an object",
+    "tuple": "a list",
+    "list": "a list",
+}
+
+
+def faults(error: ValidationError) -> list[str]:
+    """One line for each thing wrong, `PLACE: expected what, got what`, in the order they were found."""
+    return [_line(item) for item in error.errors(include_url=False)]
+
+
+def _line(item: Any) -> str:
+    context = item.get("ctx", {})
+    location = tuple(item["loc"]) + tuple(context.get("where", ()))
+    if item["type"] == "missing" and location and isinstance(location[-1], int):  # a vector that is too short
+        location, item = location[:-1], {**item, "type": "too_short", "ctx": {"actual_length": location[-1]}}
+    where = place(location)
+    return f"{where}: {_wrong(item, location, context)}" if where else _wrong(item, location, context)
+
+
+def _wrong(item: Any, location: tuple[str | int, ...], context: dict[str, Any]) -> str:
+    kind = item["type"]
+    if kind == "hqmodel":
+        return str(item["msg"])
+    if kind == "missing":
+        return "required, but missing"
+    return f"expected {_expected(kind, location, context)}, got {_got(item)}"
+
+
+def _expected(kind: str, location: tuple[str | int, ...], context: dict[str, Any]) -> str:
+    number = FIELDS.get(pattern(location))
+    if number is not None:
+        return number.expected()
+    vector = FIELDS.get(pattern(location) + "[]")
+    if vector is not None:
+        return f"a list of {len(vector.parts)} numbers"
+    if kind == "literal_error":
+        return str(context["expected"]).replace("'", '"')
+    if kind == "too_long":
+        return f"a list of at most {context['max_length']}"
+    if kind == "too_short":
+        return "a longer list"
+    if kind.startswith(("float", "int", "finite")):
+        return "a finite number"
+    return _KINDS.get(kind.split("_")[0], kind.replace("_", " "))
+
+
+def _got(item: Any) -> str:
+    if item["type"] in ("too_long", "too_short"):
+        return str(item["ctx"]["actual_length"])
+    return shown(item["input"])
