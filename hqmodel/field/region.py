@@ -1,1 +1,181 @@
-"""Where the body is: the box that holds it, found by exact bounds alone."""
+"""Where the body is: the box that holds it, from the bounding planes and tightened by exact bounds alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hqmodel.model import Scene
+
+from .intervals import box_bounds
+from .powers import CEILING
+from .terms import HUGE, Array, Terms
+
+# A flat shape (dimension 2) is shown and exported as a plate this share of its longest side thick, to either side of z = 0.
+PLATE = 0.01
+# Cells along a side in the first look, and in the last.
+_COARSE, _FINE = 8, 64
+_MOST_CELLS = 20_000
+# How far out, in the scene's own size, a body is taken to be without end.
+_FAR = 1e6
+
+
+@dataclass(frozen=True, eq=False)
+class Region:
+    """The box from low to high, (3,) each, that holds the body.
+
+    `cut`: the box cuts the body, and the cuts are closed (the preset's bounds, an endless body, a flat shape's plate).
+    `bounded`: false when the body itself runs on without end. `empty`: there is no body; the box is a unit one.
+    """
+
+    low: Array
+    high: Array
+    cut: bool = False
+    bounded: bool = True
+    empty: bool = False
+
+    @property
+    def size(self) -> Array:
+        """Its sides, (3,)."""
+        return self.high - self.low
+
+    @property
+    def centre(self) -> Array:
+        """Its middle, (3,)."""
+        return (self.low + self.high) / 2
+
+
+def region(scene: Scene, terms: Terms | None = None) -> Region:
+    """The region of a scene: its `bounds` if it has any, else worked out from the planes; tight to a few hundredths."""
+    terms = Terms.of(scene) if terms is None else terms
+    flat = scene.dimension == 2
+    if scene.bounds is not None:
+        start, bounded = np.array(scene.bounds, dtype=float), True
+    else:
+        start, bounded = _start(terms, flat)
+    hull = _tightened(terms, start, flat)
+    if hull is None:
+        return Region(-np.ones(3), np.ones(3), empty=True)
+    if not bounded:
+        bounded = not bool(np.any((hull == start)[:, : 2 if flat else 3]))
+        if not bounded:
+            hull = _tightened(terms, _within_sight(terms, hull), flat, rounds=1) if not flat else _within_sight(terms, hull)
+            hull = np.stack([-np.ones(3), np.ones(3)]) if hull is None else hull
+    if flat and scene.bounds is None:
+        thickness = PLATE * np.max((hull[1] - hull[0])[:2])
+        hull[:, 2] = -thickness, thickness
+    return Region(hull[0], hull[1], cut=flat or not bounded or scene.bounds is not None, bounded=bounded)
+
+
+def reaches(terms: Terms) -> Array:
+    """(S,) the largest |h_a| where the body can be, by the widened planes of its term alone; inf for hyperbolic terms.
+
+    Where F >= w some adding term k has H_k <= C_k + ln(K c_k / w) / beta_k; negative where the term never suffices.
+    """
+    adding = max(1, int(np.count_nonzero(terms.positive)))
+    if terms.level <= 0:
+        return np.full(len(terms.inner), np.inf)
+    with np.errstate(over="ignore", invalid="ignore"):
+        slack = (np.log(adding) + terms.log_coefficient - np.log(terms.level)) / np.maximum(terms.hardness, 1e-300)
+        most = np.clip(terms.constant + slack, -CEILING, CEILING)[terms.term_of_group]
+        reach = np.sign(most) * np.minimum(np.abs(most) ** (1 / terms.outer), HUGE)
+    hyperbolic = np.minimum.reduceat(terms.group_sign, terms.term_start)[terms.term_of_group] < 0
+    return np.where(hyperbolic, np.inf, reach)[terms.group_of_strip]
+
+
+def _start(terms: Terms, flat: bool) -> tuple[Array, bool]:
+    """A box that holds the body for certain, (2, 3), or one so large that what touches it has no end."""
+    boxes = []
+    reach = reaches(terms) if len(terms) else np.empty(0)
+    for k in np.flatnonzero(terms.positive):
+        own = terms.term_of_strip == k
+        if np.any(reach[own] < 0):
+            continue
+        box = _polytope_box(terms.normal[own], terms.offset[own], reach[own], 2 if flat else 3)
+        if box is None:
+            return _far_box(terms), False
+        boxes.append(box)
+    if not boxes:
+        return _far_box(terms), terms.level > 0
+    return np.stack([np.min([box[0] for box in boxes], axis=0), np.max([box[1] for box in boxes], axis=0)]), True
+
+
+def _polytope_box(normal: Array, offset: Array, reach: Array, dimension: int) -> Array | None:
+    """A box, (2, 3), around |normal . x + offset| <= reach; None where these planes leave a direction open.
+
+    With M the pseudo-inverse of the scaled normals, x = M (h - d) and |h| <= 1 give |x_i + (M d)_i| <= sum_a |M_ia|.
+    """
+    if not np.all(np.isfinite(reach)):
+        return None
+    inside = np.maximum(reach, 1e-150)
+    planes, shift = normal[:, :dimension] / inside[:, None], offset / inside
+    size = np.max(np.abs(planes))
+    if not 0 < size < HUGE or np.linalg.matrix_rank(planes / size, tol=1e-9) < dimension:
+        return None
+    inverse = np.linalg.pinv(planes / size) / size
+    half = np.sum(np.abs(inverse), axis=1) * (1 + 1e-9)
+    box = np.zeros((2, 3))
+    box[:, :dimension] = -inverse @ shift - half, -inverse @ shift + half
+    return box
+
+
+def _scale(terms: Terms) -> float:
+    """How far out the scene's planes lie, near enough."""
+    if not len(terms):
+        return 1.0
+    length = np.maximum(np.linalg.norm(terms.normal, axis=1), 1e-100)
+    return float(np.max((1 + np.abs(terms.offset)) / length))
+
+
+def _far_box(terms: Terms) -> Array:
+    return np.outer([-1.0, 1.0], np.full(3, _FAR * _scale(terms)))
+
+
+def _within_sight(terms: Terms, hull: Array) -> Array:
+    """The part of an endless hull that is shown."""
+    near = 2.5 * _scale(terms)
+    return np.stack([np.maximum(hull[0], -near), np.minimum(hull[1], near)])
+
+
+def _tightened(terms: Terms, box: Array, flat: bool, rounds: int = 60) -> Array | None:
+    """The hull, (2, 3), of all that may be body in the box; None where nothing is."""
+    for _ in range(rounds):
+        hull = _hull(terms, box, flat)
+        if hull is None:
+            return None
+        done = bool(np.all(hull[1] - hull[0] > 0.8 * (box[1] - box[0])))
+        box = hull
+        if done:
+            break
+    return box
+
+
+def _hull(terms: Terms, box: Array, flat: bool) -> Array | None:
+    """One look at the box: cells that hold nothing are dropped, those at the hull's sides split and looked at again."""
+    counts = np.array([_COARSE, _COARSE, 1 if flat else _COARSE])
+    cells = np.stack(np.meshgrid(*[np.arange(n) for n in counts], indexing="ij"), axis=-1).reshape(-1, 3)
+    kept = np.empty((2, 0, 3))
+    while True:
+        low, high = _cell_box(box, counts, cells)
+        alive = box_bounds(terms, low, high)[1] > 0
+        cells, low, high = cells[alive], low[alive], high[alive]
+        corners = np.concatenate([kept, np.stack([low, high])], axis=1)
+        if not corners.shape[1]:
+            return None
+        hull = np.stack([corners[0].min(axis=0), corners[1].max(axis=0)])
+        outer = np.any((low == hull[0]) | (high == hull[1]), axis=1) if not flat else np.ones(len(low), dtype=bool)
+        if counts[0] >= _FINE or np.count_nonzero(outer) * 8 > _MOST_CELLS:
+            return hull
+        kept = np.concatenate([kept, np.stack([low[~outer], high[~outer]])], axis=1)
+        halves = np.stack(np.meshgrid([0, 1], [0, 1], [0] if flat else [0, 1], indexing="ij"), axis=-1).reshape(-1, 3)
+        split = np.array([2, 2, 1 if flat else 2])
+        cells = (cells[outer][:, None] * split + halves).reshape(-1, 3)
+        counts = counts * split
+
+
+def _cell_box(box: Array, counts: Array, cells: Array) -> tuple[Array, Array]:
+    """Corners of cells, numbered along each axis; the outermost lie exactly on the box."""
+    low, high = box
+    share = cells / counts, (cells + 1) / counts
+    return low * (1 - share[0]) + high * share[0], low * (1 - share[1]) + high * share[1]

@@ -1,0 +1,25 @@
+"""The mathematics in NumPy float64: the field, its derivatives, exact bounds, the body's box and ray roots."""
+
+from .evaluate import Curvature, curvature, gradient, log_gradient, log_ratio, near_linear, shaping_strip, value
+from .intervals import box_bounds, segment_bounds
+from .rays import first_hits
+from .region import Region, reaches, region
+from .terms import Terms
+
+__all__ = [
+    "Curvature",
+    "Region",
+    "Terms",
+    "box_bounds",
+    "curvature",
+    "first_hits",
+    "gradient",
+    "log_gradient",
+    "log_ratio",
+    "near_linear",
+    "reaches",
+    "region",
+    "segment_bounds",
+    "shaping_strip",
+    "value",
+]
