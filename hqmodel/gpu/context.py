@@ -1,0 +1,30 @@
+"""The OpenGL context: off screen through EGL where there is one, else through the platform's own way."""
+
+from __future__ import annotations
+
+import moderngl
+
+# What macOS offers at most is 4.1; the shaders ask for no more than 3.3.
+REQUIRED = 330
+_ADVICE = (
+    "OpenGL 3.3 is needed and was not found: install the graphics driver, "
+    "or Mesa's software renderer (on Debian and Ubuntu: libegl1 and libgl1-mesa-dri)"
+)
+
+
+class GpuError(Exception):
+    """The machine lacks OpenGL, or what it has is not enough; the message says what to install."""
+
+
+def offscreen() -> moderngl.Context:
+    """A context without a window.
+
+    Raises GpuError, one sentence, when no way leads to OpenGL 3.3.
+    """
+    reasons = []
+    for options in ({"backend": "egl"}, {}):
+        try:
+            return moderngl.create_context(standalone=True, require=REQUIRED, **options)
+        except Exception as error:  # moderngl's backends raise the bare Exception, ImportError, OSError or ValueError
+            reasons.append(" ".join(str(error).split()) or type(error).__name__)
+    raise GpuError(f"{_ADVICE} ({'; '.join(reasons)})")
