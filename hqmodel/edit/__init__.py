@@ -1,1 +1,29 @@
+"""Edits as named pure functions from a scene to a new one, and the history that they make."""
 
+from .history import History
+from .paths import EditError, get, locations, parse, put, reset
+from .primitives import PRIMITIVES, new_scene, new_shape
+from .shapes import add_shape, duplicate_shape, move_shape, remove_shapes
+from .strips import add_strip, duplicate_strip, remove_strip, set_group, ungroup
+
+__all__ = [
+    "PRIMITIVES",
+    "EditError",
+    "History",
+    "add_shape",
+    "add_strip",
+    "duplicate_shape",
+    "duplicate_strip",
+    "get",
+    "locations",
+    "move_shape",
+    "new_scene",
+    "new_shape",
+    "parse",
+    "put",
+    "remove_shapes",
+    "remove_strip",
+    "reset",
+    "set_group",
+    "ungroup",
+]
