@@ -1,9 +1,11 @@
 """The mathematics in NumPy float64: the field, its derivatives, exact bounds, the body's box and ray roots."""
 
 from .evaluate import Curvature, curvature, gradient, log_gradient, log_ratio, near_linear, shaping_strip, value
-from .intervals import box_bounds, segment_bounds
+from .intervals import box_bounds, relevant_terms, segment_bounds
+from .colors import mixed_colors
 from .rays import first_hits
 from .region import Region, reaches, region
+from .symmetry import mirror_axes
 from .terms import Terms
 
 __all__ = [
@@ -16,9 +18,12 @@ __all__ = [
     "gradient",
     "log_gradient",
     "log_ratio",
+    "mirror_axes",
+    "mixed_colors",
     "near_linear",
     "reaches",
     "region",
+    "relevant_terms",
     "segment_bounds",
     "shaping_strip",
     "value",

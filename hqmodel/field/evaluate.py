@@ -65,6 +65,11 @@ def shaping_strip(terms: Terms, points: ArrayLike) -> Indices:
     return _by_chunk(terms, points, _shaping_strip).astype(np.intp)
 
 
+def term_weights(terms: Terms, points: ArrayLike) -> Array:
+    """Each term's share of sum |c_k| exp(beta_k (C_k - H_k)) at points (..., 3): (..., K), adding up to 1."""
+    return _by_chunk(terms, points, _term_weights, columns=len(terms))
+
+
 def near_linear(terms: Terms, ratio: Array) -> Array:
     """L made nearly linear across the surface, (...,): (H/C)^(1/gamma) turned inside out, for a lone shape.
 
@@ -142,6 +147,11 @@ def _log_gradient(terms: Terms, points: Array) -> Array:
     return np.column_stack([balance, -np.einsum("kp,kpi->pi", weights * terms.hardness[:, None], jet.slope)])
 
 
+def _term_weights(terms: Terms, points: Array) -> Array:
+    share = np.abs(_relative(terms, exponents(terms, _sums(terms, points)))[0])
+    return (share / np.sum(share, axis=0)).T
+
+
 def _shaping_strip(terms: Terms, points: Array) -> Array:
     jet = _Jet(terms, points)
     share, _ = _relative(terms, jet.t)
@@ -184,23 +194,31 @@ class _Jet:
         u = np.abs(h)
         self.sign = np.sign(h)
         self.t = exponents(terms, term_sums(terms, group_powers(terms, u), u))
-        self.largest, self.spread = scaled(terms, u)
-        self.share = u / np.maximum(self.largest, np.finfo(float).tiny)[terms.group_of_strip]
+        if terms.grouped:
+            self.largest, self.spread = scaled(terms, u)
+            self.share = u / np.maximum(self.largest, np.finfo(float).tiny)[terms.group_of_strip]
+        else:
+            self.largest, self.spread, self.share = u, np.ones_like(u), np.ones_like(u)
         first = self._group_factor(1)[terms.group_of_strip]
         self.by_strip = np.minimum(first * self._share_power(1), _STEEP) * self.sign
         self.slope = self._to_terms(self.by_strip * terms.group_sign[terms.group_of_strip][:, None])
 
     def _group_factor(self, order: int) -> Array:
-        """G m^(G-order) s^(G/g-order), (G, P); 0 at m = 0."""
+        """G m^(G-order) s^(G/g-order), (G, P); 0 at m = 0 unless the exponent is 0."""
         terms = self.terms
-        ratio = terms.outer / terms.inner[terms.group_start]
+        lowered = (terms.outer - order)[:, None]
         with np.errstate(over="ignore", divide="ignore"):
-            power = np.minimum(self.largest ** (terms.outer - order)[:, None], _STEEP)
-            inside = np.minimum(self.spread ** (ratio - order)[:, None], 1e100)
-        return np.where(self.largest > 0, terms.outer[:, None] * np.minimum(power * inside, _STEEP), 0.0)
+            power = np.minimum(self.largest**lowered, _STEEP)
+            inside = 1.0
+            if terms.grouped:
+                inside = np.minimum(self.spread ** (terms.outer / terms.inner[terms.group_start] - order)[:, None], 1e100)
+        regular = (self.largest > 0) | (lowered == 0)
+        return np.where(regular, terms.outer[:, None] * np.minimum(power * inside, _STEEP), 0.0)
 
     def _share_power(self, order: int) -> Array:
         """r^(g-order), (S, P); 0 at r = 0 unless the exponent is 0."""
+        if not self.terms.grouped:
+            return self.share
         lowered = (self.terms.inner - order)[:, None]
         with np.errstate(over="ignore", divide="ignore"):
             power = np.minimum(self.share**lowered, 1e100)

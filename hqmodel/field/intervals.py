@@ -77,3 +77,16 @@ def _segment_ranges(terms: Terms, start: Array, end: Array) -> tuple[Array, Arra
     size = np.abs(terms.normal) @ np.clip(np.maximum(np.abs(start), np.abs(end)), 0, HUGE).T
     pad = 8 * _EPS * (size + np.abs(terms.offset)[:, None])
     return np.minimum(first, second) - pad, np.maximum(first, second) + pad
+
+
+def relevant_terms(terms: Terms, low: ArrayLike, high: ArrayLike, negligible: float = 50.0) -> Terms:
+    """Only the terms that can matter for the surface in the box from low to high, (3,) each.
+
+    On the surface P = N, so a term below both by more than exp(negligible) moves it by less than float64 resolves.
+    """
+    if len(terms) < 2:
+        return terms
+    t_low, t_high = term_bounds(terms, *_box_ranges(terms, np.atleast_2d(low), np.atleast_2d(high)))
+    sides = [np.max(t_low[side], initial=-np.inf) for side in (terms.positive, ~terms.positive)]
+    sides.append(np.log(abs(terms.level)) if terms.level else -np.inf)
+    return terms.keep(t_high[:, 0] >= max(sides) - negligible)

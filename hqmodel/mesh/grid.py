@@ -1,0 +1,96 @@
+"""The sampling grid: where its nodes lie along each axis, and which of them are outside by decree."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hqmodel.field import Region
+
+from .mesh import Array
+
+BLOCK = 8
+# However thin a body is along an axis, it gets this many cells across it.
+_FEWEST_CELLS = 8
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """Nodes along each axis, a whole number of blocks of `BLOCK` cells; `outside` marks nodes beyond a cut.
+
+    Along a mirror axis the nodes start at 0 and only the upper half is sampled. At a cut the plane's nodes are repeated once
+    as outside nodes, so that the cap lies in cells of no thickness, exactly on the cut.
+    """
+
+    nodes: tuple[Array, Array, Array]
+    outside: tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]
+    cell: float  # the longest edge of a cell
+
+    @property
+    def blocks(self) -> tuple[int, int, int]:
+        """Blocks along each axis."""
+        x, y, z = ((len(nodes) - 1) // BLOCK for nodes in self.nodes)
+        return x, y, z
+
+    def corners(self, blocks: NDArray[np.int64], size: int) -> tuple[Array, Array]:
+        """Low and high corners, (n, 3) each, of cubes of `size` cells whose first nodes are `blocks` (n, 3), cut off at the end."""
+        low = np.stack([nodes[blocks[:, i]] for i, nodes in enumerate(self.nodes)], axis=1)
+        high = np.stack([nodes[np.minimum(blocks[:, i] + size, len(nodes) - 1)] for i, nodes in enumerate(self.nodes)], axis=1)
+        return low, high
+
+    def touches_outside(self, blocks: NDArray[np.int64], size: int) -> NDArray[np.bool_]:
+        """Whether cubes of cells hold nodes beyond a cut, (n,)."""
+        touching = np.zeros(len(blocks), dtype=bool)
+        for i, outside in enumerate(self.outside):
+            count = np.concatenate([[0], np.cumsum(outside)])
+            last = np.minimum(blocks[:, i] + size, len(outside) - 1)
+            touching |= count[last + 1] > count[blocks[:, i]]
+        return touching
+
+
+def make_grid(region: Region, resolution: int, mirrored: tuple[int, ...]) -> Grid:
+    """A grid with `resolution` cells along the region's longest side, half of it along each mirror axis.
+
+    The region's sides fall in the middle of cells, so that a body with flat sides keeps them away from the nodes.
+    """
+    cell = float(np.max(region.size)) / resolution
+    axes = [_axis(region.low[i], region.high[i], cell, i in mirrored, region.cut) for i in range(3)]
+    nodes, outside = tuple(axis[0] for axis in axes), tuple(axis[1] for axis in axes)
+    longest = max(float(np.max(np.diff(axis))) for axis in nodes)
+    return Grid((nodes[0], nodes[1], nodes[2]), (outside[0], outside[1], outside[2]), longest)
+
+
+def _axis(low: float, high: float, cell: float, mirrored: bool, cut: bool) -> tuple[Array, NDArray[np.bool_]]:
+    count = max(_FEWEST_CELLS, ceil((high - low) / cell - 1e-9))
+    if mirrored:
+        nodes = _half_axis(max(high, -low), count, cut)
+    elif cut:
+        nodes = np.linspace(low, high, count + 1)
+    else:
+        step = (high - low) / count
+        nodes = low + (np.arange(count + 2) - 0.5) * step
+    if not cut:
+        return _whole_blocks(nodes, np.zeros(len(nodes), dtype=bool), nodes[-1] - nodes[-2])
+    before = 0 if mirrored else 1
+    outside = np.concatenate([np.ones(before, dtype=bool), np.zeros(len(nodes), dtype=bool), [True]])
+    return _whole_blocks(np.concatenate([[low] * before, nodes, [nodes[-1]]]), outside, 0.0)
+
+
+def _half_axis(high: float, count: int, cut: bool) -> Array:
+    """Nodes from 0 outwards: up to the cut, or half a cell beyond the body."""
+    half = (count + 1) // 2
+    if cut:
+        return np.linspace(0, high, half + 1)
+    return np.arange(half + 2) * (high / (half + 0.5))
+
+
+def _whole_blocks(nodes: Array, outside: NDArray[np.bool_], step: float) -> tuple[Array, NDArray[np.bool_]]:
+    """Nodes added at the end until the cells make whole blocks."""
+    missing = -(len(nodes) - 1) % BLOCK
+    return (
+        np.concatenate([nodes, nodes[-1] + step * np.arange(1, missing + 1)]),
+        np.concatenate([outside, np.full(missing, step == 0)]),
+    )

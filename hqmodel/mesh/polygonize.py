@@ -1,0 +1,150 @@
+"""From a scene to a watertight mesh: tiles culled by exact bounds, marched, welded by edge, vertices on the surface."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hqmodel.field import Region, Terms, log_gradient, log_ratio, mirror_axes, mixed_colors, near_linear, region, relevant_terms
+from hqmodel.model import Scene
+
+from .cull import TILE, Blocks, blocks_of, tiles
+from .extract import NODES, extract
+from .grid import Grid, make_grid
+from .measure import distances
+from .mesh import Array, Mesh, MeshError, reflected
+from .refine import place_vertices
+
+Progress = Callable[[float, str], None]
+MAX_RESOLUTION = 2048
+
+
+def polygonize(scene: Scene, resolution: int = 256, progress: Progress | None = None, *, shading: bool = True) -> Mesh:
+    """The scene's body as a closed triangle mesh in world units, outward normals and sRGB colours included if `shading`.
+
+    `resolution` is the number of cells along the body's longest side. `progress` is told the share done (0..1) and what is
+    being done; whatever it raises ends the work. A scene that is its own mirror image gives a mesh that is, to the last bit.
+
+    Raises MeshError when there is no surface, when the body has no end, or when the resolution is out of range.
+    """
+    if not 4 <= resolution <= MAX_RESOLUTION:
+        raise MeshError(f"resolution: expected a whole number from 4 to {MAX_RESOLUTION}, got {resolution}")
+    tell = progress or (lambda share, doing: None)
+    tell(0.0, "Finding the body")
+    terms = Terms.of(scene)
+    where = region(scene, terms)
+    _must_exist(scene, where)
+    mirrored = mirror_axes(terms, where)
+    grid = make_grid(where, resolution, mirrored)
+    pieces = [piece for piece in _pieces(scene, terms, grid, shading, tell) if len(piece.faces)]
+    if not pieces:
+        raise MeshError("no surface: the field does not reach its level anywhere at this resolution")
+    tell(0.95, "Joining")
+    mesh = _welded(pieces, grid)
+    for axis in mirrored:
+        mesh = reflected(mesh, axis)
+    tell(1.0, "Done")
+    return mesh
+
+
+def _must_exist(scene: Scene, where: Region) -> None:
+    if where.empty:
+        reason = "there is no visible shape" if not any(shape.visible for shape in scene.shapes) else "the field is below its level everywhere"
+        raise MeshError(f"no surface: {reason}")
+    if not where.bounded:
+        raise MeshError('bounds: expected a box to cut the body by, as it runs on without end, got none (add "bounds" to the preset)')
+
+
+@dataclass(frozen=True, eq=False)
+class _Piece:
+    """One tile's triangles, its vertices named by their edges."""
+
+    keys: NDArray[np.int64]
+    vertices: Array
+    faces: NDArray[np.int64]
+    normals: Array | None
+    colors: Array | None
+    error: float
+
+
+def _pieces(scene: Scene, terms: Terms, grid: Grid, shading: bool, tell: Progress) -> Iterator[_Piece]:
+    """The tiles' pieces in order, worked out on all cores."""
+    jobs = tiles(terms, grid)
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        try:
+            for number, piece in enumerate(pool.map(lambda tile: _piece(scene, terms, grid, tile, shading), jobs)):
+                tell(0.95 * (number + 1) / len(jobs), "Meshing")
+                yield piece
+        finally:
+            pool.shutdown(wait=True, cancel_futures=True)
+
+
+def _piece(scene: Scene, terms: Terms, grid: Grid, tile: Blocks, shading: bool) -> _Piece:
+    low, high = grid.corners(tile.reshape(1, 3), TILE)
+    local = relevant_terms(terms, low[0], high[0])
+    blocks = blocks_of(local, grid, tile)
+    empty = np.empty((0, 3))
+    if not len(blocks):
+        return _Piece(np.empty(0, np.int64), empty, np.empty((0, 3), np.int64), None, None, 0.0)
+    patch = extract(blocks, _samples(local, grid, blocks), 1.0 / _step(local, grid))
+    keys, first, inverse = np.unique(_keys(patch.edge, grid), return_index=True, return_inverse=True)
+    faces = inverse.reshape(-1)[patch.faces]
+    patch = type(patch)(patch.edge[first], patch.place[first], patch.ends[first], faces)
+    vertices = place_vertices(local, grid, patch)
+    normals = _normals(local, vertices) if shading else None
+    colors = mixed_colors(scene, local, vertices) if shading else None
+    error = distances(local, vertices[faces].mean(axis=1), grid.cell) if len(faces) else np.zeros(1)
+    return _Piece(keys, vertices, faces, normals, colors, float(np.max(error)))
+
+
+def _step(terms: Terms, grid: Grid) -> float:
+    """About how much the near-linear field changes across a cell."""
+    return grid.cell * float(np.median(np.linalg.norm(terms.normal, axis=1))) if len(terms) else 1.0
+
+
+def _samples(terms: Terms, grid: Grid, blocks: Blocks) -> Array:
+    """The near-linear field at the nodes of blocks, (n, 9, 9, 9); -inf beyond a cut."""
+    steps = np.arange(NODES)
+    index = [blocks[:, i, None] + steps for i in range(3)]
+    x, y, z = (nodes[i] for nodes, i in zip(grid.nodes, index, strict=True))
+    points = np.empty((len(blocks), NODES, NODES, NODES, 3))
+    points[..., 0], points[..., 1], points[..., 2] = x[:, :, None, None], y[:, None, :, None], z[:, None, None, :]
+    values = near_linear(terms, log_ratio(terms, points))
+    beyond = [outside[i] for outside, i in zip(grid.outside, index, strict=True)]
+    if any(part.any() for part in beyond):
+        bx, by, bz = beyond
+        values[bx[:, :, None, None] | by[:, None, :, None] | bz[:, None, None, :]] = -np.inf
+    return values
+
+
+def _keys(edge: NDArray[np.int64], grid: Grid) -> NDArray[np.int64]:
+    """One number for each grid edge."""
+    _, ny, nz = (len(nodes) for nodes in grid.nodes)
+    return ((edge[:, 0] * ny + edge[:, 1]) * nz + edge[:, 2]) * 4 + edge[:, 3]
+
+
+def _normals(terms: Terms, vertices: Array) -> Array:
+    _, slope = log_gradient(terms, vertices)
+    length = np.linalg.norm(slope, axis=1, keepdims=True)
+    return np.where(length > 0, -slope / np.maximum(length, 1e-300), 0.0)
+
+
+def _welded(pieces: list[_Piece], grid: Grid) -> Mesh:
+    """The pieces joined where their tiles meet."""
+    keys = np.concatenate([piece.keys for piece in pieces])
+    _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
+    starts = np.cumsum([0] + [len(piece.keys) for piece in pieces])
+    faces = np.concatenate([piece.faces + start for piece, start in zip(pieces, starts[:-1], strict=True)])
+
+    def joined(name: str) -> Any:
+        parts = [getattr(piece, name) for piece in pieces]
+        return None if parts[0] is None else np.concatenate(parts)[first]
+
+    error = max(piece.error for piece in pieces)
+    return Mesh(joined("vertices"), inverse.reshape(-1)[faces], joined("normals"), joined("colors"), error)
