@@ -32,6 +32,15 @@ def duplicate_strip(scene: Scene, shape: int, index: int) -> Scene:
     return _with_strips(scene, shape, (*strips[: index + 1], strip, *strips[index + 1 :]))
 
 
+def move_strip(scene: Scene, shape: int, index: int, to: int) -> Scene:
+    """The strip taken out and put in again so that its index is `to`."""
+    strip = get(scene, ("shapes", shape, "strips", index))
+    get(scene, ("shapes", shape, "strips", to))
+    strips = _shape(scene, shape).strips
+    rest = [*strips[:index], *strips[index + 1 :]]
+    return _with_strips(scene, shape, (*rest[:to], strip, *rest[to:]))
+
+
 def set_group(scene: Scene, shape: int, indices: Sequence[int], name: str | None = None) -> Scene:
     """These strips joined to the group of that name; a new one where there is none (eqs. 7, 14).
 
