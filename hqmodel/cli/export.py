@@ -1,0 +1,86 @@
+"""hqmodel export: the body as a triangle mesh."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from enum import StrEnum
+from pathlib import Path
+from time import perf_counter
+from typing import Annotated, Any
+
+import typer
+
+from .faults import INPUT, Fault
+from .options import Json, Preset, Quiet, Set, Slice, scene_of
+from .outputs import checked, tell, writing
+from .progress import progress
+
+
+class Unit(StrEnum):
+    mm = "mm"
+    cm = "cm"
+    m = "m"
+    inch = "in"
+
+
+class Up(StrEnum):
+    z = "z"
+    y = "y"
+
+
+Output = Annotated[
+    list[Path],
+    typer.Option(
+        "-o", "--output", metavar="FILE", help="The mesh file; its ending says the format. May be repeated.", show_default=False
+    ),
+]
+Resolution = Annotated[int, typer.Option("--resolution", metavar="N", min=4, max=2048, help="Cells along the longest side.")]
+Unit_ = Annotated[Unit | None, typer.Option("--unit", help="The unit that lengths in the file are in.")]
+Size = Annotated[float | None, typer.Option("--size", metavar="X", help="The longest side, in that unit.")]
+Up_ = Annotated[Up | None, typer.Option("--up", help="The axis that points up; by default what the format's users expect.")]
+Colors = Annotated[bool, typer.Option("--colors/--no-colors", help="Vertex colours, where the format has them.")]
+Normals = Annotated[bool, typer.Option("--normals/--no-normals", help="Vertex normals, where the format has them.")]
+
+
+def export(
+    preset: Preset,
+    output: Output,
+    resolution: Resolution = 256,
+    unit: Unit_ = None,
+    size: Size = None,
+    up: Up_ = None,
+    colors: Colors = True,
+    normals: Normals = True,
+    slice_t: Slice = None,
+    settings: Set = None,
+    as_json: Json = False,
+    quiet: Quiet = False,
+) -> None:
+    """Write the body as a triangle mesh.
+
+    The ending says the format: .obj, .ply, .stl or .glb. Several -o write several files from one mesh.
+    """
+    started = perf_counter()
+    scene = scene_of(preset, slice_t, settings)
+    from hqmodel import mesh  # late: a preset at fault is told at once
+
+    checked(output, mesh.FORMATS, [preset])
+    try:
+        with progress(quiet) as report:
+            body = mesh.polygonize(scene, resolution, report)
+        result = mesh.report(body)
+        shaded = replace(body, colors=body.colors if colors else None, normals=body.normals if normals else None)
+        with writing(output) as streams:
+            for path, stream in zip(output, streams, strict=True):
+                suffix = path.suffix.lower()
+                mesh.write(mesh.fitted(shaded, suffix, unit=unit, size=size, up=up), stream, suffix, scene.name)
+    except mesh.MeshError as error:
+        raise Fault(f"{preset}: {error}", INPUT) from None
+    result |= {"resolution": resolution, "seconds": perf_counter() - started, "files": [str(path) for path in output]}
+    tell(result, _text(result), as_json, quiet)
+
+
+def _text(result: dict[str, Any]) -> str:
+    closed = "watertight" if result["watertight"] else "not watertight"
+    counts = f"{result['faces']:,} triangles, {result['vertices']:,} vertices, {closed}, volume {result['volume']:.6g}"
+    return f"{', '.join(result['files'])}: {counts}, {result['seconds']:.1f} s"

@@ -1,0 +1,87 @@
+"""The program's entry: which command is meant, and the exit status."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from collections.abc import Sequence
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from typer.core import TyperGroup
+
+from hqmodel import __version__
+from hqmodel.files import PresetError, find
+
+from . import check, edit, export, presets, raycast, render, sample
+from .faults import guarded
+
+
+class Commands(TyperGroup):
+    """The commands; where none is named, `edit` is meant, with whatever is given."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        own = {"-h", "--help", "--version"}
+        if not args or args[0] not in own | set(self.commands):
+            self._refuse_slip(ctx, args[0] if args else "")
+            args = ["edit", *args]
+        return super().parse_args(ctx, args)
+
+    def _refuse_slip(self, ctx: Any, word: str) -> None:
+        """A mistyped command is no preset."""
+        close = get_close_matches(word, self.commands, n=1, cutoff=0.7)
+        if close and not Path(word).exists():
+            try:
+                find(word)
+            except PresetError:
+                ctx.fail(f"expected a command or a preset, got {word!r}: did you mean {close[0]}?")
+
+
+app = typer.Typer(
+    cls=Commands,
+    add_completion=False,
+    rich_markup_mode=None,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    help="A desktop modeller that shapes hyperquadrics like clay. Without a command the modeller opens: hqmodel [PRESET].",
+)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        print(f"hqmodel {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")] = False,
+) -> None:
+    """See `Commands`."""
+
+
+for _module in (edit, export, render, sample, raycast, check, presets):
+    app.command()(getattr(_module, _module.__name__.rpartition(".")[2]))
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Carry out a command line, told in full on stdout and stderr; the exit status."""
+    return guarded(lambda: app(list(arguments), prog_name="hqmodel", standalone_mode=False))
+
+
+def main() -> None:
+    """The console's entry point."""
+    signal.signal(signal.SIGTERM, _terminated)
+    sys.exit(run(sys.argv[1:]))
+
+
+def main_window() -> None:
+    """The entry point of desktops, which open a file with the program by naming it."""
+    signal.signal(signal.SIGTERM, _terminated)
+    sys.exit(run(["edit", *sys.argv[1:]]))
+
+
+def _terminated(number: int, _frame: object) -> None:
+    """Asked to end: unwind, so that nothing half-written is left behind."""
+    sys.exit(128 + number)

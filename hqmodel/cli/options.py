@@ -1,0 +1,58 @@
+"""The arguments and options that mean the same in every command, and the scene that they lead to."""
+
+from __future__ import annotations
+
+import json
+from typing import Annotated, Any
+
+import typer
+
+from hqmodel.edit import EditError, put
+from hqmodel.files import load
+from hqmodel.model import Scene, shown
+
+from .faults import USAGE, Fault
+
+Preset = Annotated[str, typer.Argument(metavar="PRESET", help="A preset file, or the name of a built-in preset.")]
+Slice = Annotated[float | None, typer.Option("--slice", metavar="T", help="The slice t, instead of the preset's.")]
+Set = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="PATH=VALUE",
+        help="Another value for a field, as gamma=8 or shapes[0].strips[1].gamma=8; may be repeated.",
+    ),
+]
+Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout and nothing else.")]
+Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing but errors.")]
+
+
+def scene_of(preset: str, slice_t: float | None = None, settings: list[str] | None = None) -> Scene:
+    """The preset's scene with --slice and then each --set applied, in order.
+
+    Raises PresetError, and Fault when the options are at fault.
+    """
+    scene = load(preset)
+    if slice_t is not None:
+        scene = _put(scene, "--slice", "slice", slice_t)
+    for setting in settings or ():
+        path, equals, text = setting.partition("=")
+        if not equals or not path.strip():
+            raise Fault(f"--set: expected PATH=VALUE, got {shown(setting)}", USAGE)
+        scene = _put(scene, "--set", path.strip(), _value(text))
+    return scene
+
+
+def _put(scene: Scene, option: str, path: str, value: Any) -> Scene:
+    try:
+        return put(scene, path, value)
+    except EditError as error:
+        raise Fault(f"{option}: {error}", USAGE) from None
+
+
+def _value(text: str) -> Any:
+    """A value as JSON has it; what is no JSON is meant as text."""
+    try:
+        return json.loads(text)
+    except (ValueError, RecursionError):
+        return text.strip()
