@@ -1,0 +1,90 @@
+# make run    sets everything up and opens the modeller (without a display it renders and exports a preset into out/)
+# make test   sets everything up and runs every check
+# make bench  runs the benchmarks        make clean  removes what these made
+
+VENV ?= .venv
+BIN := $(VENV)/bin
+PYTHONS := python3 python3.14 python3.13 python3.12 python3.11
+DEMO ?= pebble
+
+# OpenGL, off screen too, and what a window on X11 needs; the second list is for the tests' own display.
+LIBRARIES := libegl1 libgl1 libgl1-mesa-dri libglx-mesa0 libopengl0 libx11-6 libx11-xcb1 libxcursor1 libxext6 libxi6 \
+	libxinerama1 libxrandr2 libxrender1
+DISPLAYS := xvfb xauth xdotool
+
+# A Python of at least 3.11 that can make virtual environments (Debian splits that off).
+SUITABLE := -c 'import sys, ensurepip; sys.exit(sys.version_info < (3, 11))' 2>/dev/null
+NEEDS_PYTHON := $(if $(wildcard $(BIN)/python),,$(shell for p in $(PYTHONS); do $$p $(SUITABLE) && exit; done; echo python3-venv))
+
+.PHONY: run test demo bench schema clean system-run system-test
+.DEFAULT_GOAL := run
+
+run: system-run $(VENV)/.installed
+	@status=3; \
+	if [ -n "$$DISPLAY$$WAYLAND_DISPLAY" ] || [ "$$(uname)" = Darwin ]; then $(BIN)/hqmodel; status=$$?; fi; \
+	if [ $$status -ne 3 ]; then exit $$status; fi; \
+	echo "There is no display to open a window on: rendering and exporting the preset '$(DEMO)' into out/ instead."; \
+	$(MAKE) --no-print-directory demo
+
+demo:
+	@mkdir -p out
+	@$(BIN)/hqmodel render $(DEMO) -o out/$(DEMO).png
+	@$(BIN)/hqmodel export $(DEMO) -o out/$(DEMO).glb -o out/$(DEMO).obj
+
+test: system-test $(VENV)/.installed-for-tests
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+	xvfb-run -a -s "-screen 0 1920x1200x24" $(BIN)/python -m pytest -n 2
+
+bench: system-run $(VENV)/.installed-for-tests
+	$(BIN)/python -m benchmarks
+
+schema: $(VENV)/.installed
+	$(BIN)/python -c "from hqmodel.files import schema_text; print(schema_text(), end='')" > presets/hqmodel-1.schema.json
+
+clean:
+	rm -rf $(VENV) out build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+# The environment; the stamps make a second run instant.
+$(VENV)/bin/python:
+	@for python in $(PYTHONS); do \
+		if $$python $(SUITABLE); then \
+			echo "Making $(VENV) with $$($$python --version)"; exec $$python -m venv $(VENV); \
+		fi; \
+	done; \
+	echo "Python 3.11 or later, with its venv module, is needed (on Debian and Ubuntu: apt-get install python3-venv)." >&2; exit 1
+
+$(VENV)/.installed: pyproject.toml | $(VENV)/bin/python
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e .
+	@touch $@
+
+$(VENV)/.installed-for-tests: pyproject.toml | $(VENV)/bin/python
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[test]"
+	@touch $@ $(VENV)/.installed
+
+# System packages: installed where apt is there and we may, else named. The modeller may do without (a driver may bring its
+# own), the tests may not.
+system-run:
+	@$(call install,$(LIBRARIES) $(NEEDS_PYTHON)) || true
+
+system-test:
+	@$(call install,$(LIBRARIES) $(DISPLAYS) $(NEEDS_PYTHON))
+	@command -v xvfb-run >/dev/null && command -v xdotool >/dev/null || \
+		{ echo "The tests need Xvfb (xvfb-run, xauth) and xdotool: please install them." >&2; exit 1; }
+
+define install
+missing=; \
+if command -v dpkg-query >/dev/null; then \
+	for package in $(1); do \
+		dpkg-query -W -f '$${Status}' $$package 2>/dev/null | grep -q 'ok installed' || missing="$$missing $$package"; \
+	done; \
+fi; \
+if [ -z "$$missing" ]; then true; \
+elif [ "$$(id -u)" -eq 0 ] && command -v apt-get >/dev/null; then \
+	echo "Installing$$missing"; export DEBIAN_FRONTEND=noninteractive; \
+	apt-get update -qq && apt-get install -y -qq --no-install-recommends $$missing >/dev/null; \
+else echo "Please install:$$missing  (sudo apt-get install$$missing)" >&2; false; fi
+endef
