@@ -1,6 +1,6 @@
 """The mathematics in NumPy float64: the field, its derivatives, exact bounds, the body's box and ray roots."""
 
-from .evaluate import Curvature, curvature, gradient, log_gradient, log_ratio, near_linear, shaping_strip, value
+from .evaluate import Curvature, curvature, gradient, log_gradient, log_ratio, near_linear, near_linear_slope, shaping_strip, value
 from .intervals import box_bounds, relevant_terms, segment_bounds
 from .colors import mixed_colors
 from .rays import first_hits
@@ -21,6 +21,7 @@ __all__ = [
     "mirror_axes",
     "mixed_colors",
     "near_linear",
+    "near_linear_slope",
     "reaches",
     "region",
     "relevant_terms",

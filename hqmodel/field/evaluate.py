@@ -13,11 +13,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .powers import CEILING, group_powers, scaled, strip_functions, term_sums
+from .powers import CEILING, group_powers, over_runs, scaled, strip_functions, term_sums
 from .terms import HUGE, Array, Indices, Terms
 
 # Strips times points worked on at once: what stays in a processor's cache.
-_CHUNK = 1 << 15
+_CHUNK = 1 << 16
 # exp of this is just inside float64.
 _TOP = 709.0
 _STEEP = 1e140
@@ -75,9 +75,19 @@ def near_linear(terms: Terms, ratio: Array) -> Array:
 
     Same sign as L, 1 at most; what to hand to anything that interpolates.
     """
-    hard = float(np.max(terms.hardness[terms.positive], initial=1e-300))
-    steep = float(np.max(terms.outer, initial=1.0))
+    hard, steep = _typical(terms)
     return 1.0 - np.maximum(1.0 - ratio / hard, 1e-300) ** (1.0 / steep)
+
+
+def near_linear_slope(terms: Terms, ratio: Array) -> Array:
+    """The derivative of `near_linear` by L, (...,)."""
+    hard, steep = _typical(terms)
+    return np.maximum(1.0 - ratio / hard, 1e-300) ** (1.0 / steep - 1.0) / (hard * steep)
+
+
+def _typical(terms: Terms) -> tuple[float, float]:
+    """The largest hardness of what adds, and the largest exponent."""
+    return float(np.max(terms.hardness[terms.positive], initial=1e-300)), float(np.max(terms.outer, initial=1.0))
 
 
 def exponents(terms: Terms, h_sums: Array) -> Array:
@@ -201,17 +211,20 @@ class _Jet:
             self.largest, self.spread, self.share = u, np.ones_like(u), np.ones_like(u)
         first = self._group_factor(1)[terms.group_of_strip]
         self.by_strip = np.minimum(first * self._share_power(1), _STEEP) * self.sign
-        self.slope = self._to_terms(self.by_strip * terms.group_sign[terms.group_of_strip][:, None])
+        signed = self.by_strip * terms.group_sign[terms.group_of_strip][:, None] if terms.hyperbolic else self.by_strip
+        self.slope = self._to_terms(signed)
 
     def _group_factor(self, order: int) -> Array:
         """G m^(G-order) s^(G/g-order), (G, P); 0 at m = 0 unless the exponent is 0."""
         terms = self.terms
         lowered = (terms.outer - order)[:, None]
         with np.errstate(over="ignore", divide="ignore"):
-            power = np.minimum(self.largest**lowered, _STEEP)
-            inside = 1.0
-            if terms.grouped:
-                inside = np.minimum(self.spread ** (terms.outer / terms.inner[terms.group_start] - order)[:, None], 1e100)
+            size, inside = self.largest, 1.0
+            if terms.grouped:  # m^(G-order) may underflow where s^(G/g-order) overflows: rooted before it is raised
+                inner = terms.inner[terms.group_start][:, None]
+                size = size * self.spread ** (1 / inner)
+                inside = self.spread ** (order * (1 / inner - 1))
+            power = np.minimum(size**lowered, _STEEP)
         regular = (self.largest > 0) | (lowered == 0)
         return np.where(regular, terms.outer[:, None] * np.minimum(power * inside, _STEEP), 0.0)
 
@@ -228,7 +241,7 @@ class _Jet:
         """Sum of by_strip (S, P) times the normals over each term's strips, (K, P, 3)."""
         terms = self.terms
         first_strip = terms.group_start[terms.term_start]
-        parts = [np.add.reduceat(by_strip * terms.normal[:, i, None], first_strip, axis=0) for i in range(3)]
+        parts = [over_runs(by_strip * terms.normal[:, i, None], first_strip) for i in range(3)]
         return np.clip(np.stack(parts, axis=2), -HUGE, HUGE)
 
     def bend(self) -> Array:
@@ -239,14 +252,13 @@ class _Jet:
         diagonal = self._share_power(2) * ((factor * self.spread * sign)[terms.group_of_strip] * (terms.inner - 1)[:, None])
         first_strip = terms.group_start[terms.term_start]
         mixed = self._share_power(1) * self.sign
-        lean = np.stack([np.add.reduceat(mixed * terms.normal[:, i, None], terms.group_start, axis=0) for i in range(3)])
+        lean = np.stack([over_runs(mixed * terms.normal[:, i, None], terms.group_start) for i in range(3)])
         cross = factor * sign * (terms.outer - terms.inner[terms.group_start])[:, None]
         result = np.empty((len(terms), diagonal.shape[1], 3, 3))
         for i in range(3):
             for j in range(i + 1):
                 own = diagonal * (terms.normal[:, i] * terms.normal[:, j])[:, None]
-                entry = np.add.reduceat(own, first_strip, axis=0)
-                entry += np.add.reduceat(cross * lean[i] * lean[j], terms.term_start, axis=0)
+                entry = over_runs(own, first_strip) + over_runs(cross * lean[i] * lean[j], terms.term_start)
                 result[:, :, i, j] = result[:, :, j, i] = entry
         return result
 

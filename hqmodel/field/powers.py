@@ -8,14 +8,24 @@ from __future__ import annotations
 
 import numpy as np
 
-from .terms import Array, Terms
+from .terms import HUGE, Array, Indices, Terms
 
 CEILING = 1e300
 
 
 def strip_functions(terms: Terms, points: Array) -> Array:
-    """h (S, P) of every strip at points (P, 3); finite wherever the points are numbers."""
-    return terms.normal @ np.clip(points, -1e150, 1e150).T + terms.offset[:, None]
+    """h (S, P) of every strip at points (P, 3); finite wherever the points are numbers.
+
+    Worked out element by element: a point's value must not depend, to the last bit, on its neighbours in the array, as it
+    would with a library's matrix product.
+    """
+    x, y, z = np.clip(points, -HUGE, HUGE).T
+    h: Array = terms.normal[:, 0, None] * x
+    part = terms.normal[:, 1, None] * y
+    h += part
+    h += np.multiply(terms.normal[:, 2, None], z, out=part)
+    h += terms.offset[:, None]
+    return h
 
 
 def group_powers(terms: Terms, u: Array) -> Array:
@@ -24,25 +34,34 @@ def group_powers(terms: Terms, u: Array) -> Array:
         if not terms.grouped:
             return np.minimum(_power(u, terms.inner), CEILING)
         largest, spread = scaled(terms, u)
-        ratio = terms.outer / terms.inner[terms.group_start]
-        return np.minimum(_power(largest, terms.outer) * np.minimum(spread ** ratio[:, None], CEILING), CEILING)
+        # Rooted before it is raised: m^G may underflow where s^(G/g) overflows.
+        size = largest * spread ** (1 / terms.inner[terms.group_start])[:, None]
+        return np.minimum(_power(size, terms.outer), CEILING)
 
 
 def scaled(terms: Terms, u: Array) -> tuple[Array, Array]:
     """Each group's largest |h| and sum (|h| / largest)^g, both (G, P); the sum lies between 1 and the number of strips."""
     largest = np.maximum.reduceat(u, terms.group_start, axis=0)
     share = u / np.maximum(largest, np.finfo(float).tiny)[terms.group_of_strip]
-    return largest, np.maximum(np.add.reduceat(_power(share, terms.inner), terms.group_start, axis=0), 1.0)
+    return largest, np.maximum(over_runs(_power(share, terms.inner), terms.group_start), 1.0)
 
 
 def term_sums(terms: Terms, v: Array, u: Array) -> Array:
     """H (K, P) from the group powers v (G, P); u only settles what overflowed."""
-    total = np.add.reduceat(v * terms.group_sign[:, None], terms.term_start, axis=0)
-    if terms.hyperbolic:
-        lost = np.flatnonzero(np.any(v >= CEILING, axis=0))
-        if lost.size:
-            total[:, lost] = _by_logarithm(terms, u[:, lost], total[:, lost])
+    if not terms.hyperbolic:
+        return over_runs(v, terms.term_start)
+    total = over_runs(v * terms.group_sign[:, None], terms.term_start)
+    lost = np.flatnonzero(np.any(v >= CEILING, axis=0))
+    if lost.size:
+        total[:, lost] = _by_logarithm(terms, u[:, lost], total[:, lost])
     return total
+
+
+def over_runs(rows: Array, starts: Indices) -> Array:
+    """Sums over runs of rows (n, P) that begin at `starts`, (len(starts), P)."""
+    if len(starts) == len(rows):
+        return rows
+    return rows.sum(axis=0, keepdims=True) if len(starts) == 1 else np.add.reduceat(rows, starts, axis=0)
 
 
 def _power(base: Array, exponents: Array) -> Array:
@@ -62,5 +81,5 @@ def _by_logarithm(terms: Terms, u: Array, total: Array) -> Array:
         logs = np.maximum(terms.outer[:, None] * np.log(largest) + ratio[:, None] * np.log(spread), -1e4)
     top = np.maximum.reduceat(logs, terms.term_start, axis=0)
     parts = terms.group_sign[:, None] * np.exp(logs - top[terms.term_of_group])
-    rest = np.add.reduceat(parts, terms.term_start, axis=0)
+    rest = over_runs(parts, terms.term_start)
     return np.where(top > np.log(CEILING), np.sign(rest) * CEILING, total)

@@ -2,6 +2,6 @@
 
 from .measure import report
 from .mesh import Mesh, MeshError
-from .polygonize import MAX_RESOLUTION, polygonize
+from .build import MAX_RESOLUTION, polygonize
 
 __all__ = ["MAX_RESOLUTION", "Mesh", "MeshError", "polygonize", "report"]

@@ -18,7 +18,7 @@ from .mesh import Array
 
 NODES = BLOCK + 1
 # Blocks in one call; float32 coordinates of the packed array stay finer than a thousandth of a cell.
-_PACK = 200
+_PACK = 360
 # The interpolated position along an edge only names the edge. Samples are kept this far off the level and below the largest
 # by this much, so that no position comes near a node.
 _LEAST, _MOST = 0.05, 12.0

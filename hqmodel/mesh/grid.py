@@ -12,7 +12,7 @@ from hqmodel.field import Region
 
 from .mesh import Array
 
-BLOCK = 8
+BLOCK = 4
 # However thin a body is along an axis, it gets this many cells across it.
 _FEWEST_CELLS = 8
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-Triangles = NDArray[np.int64]
+Triangles = NDArray[np.int32]
 
 
 class MeshError(Exception):
@@ -19,14 +19,14 @@ class MeshError(Exception):
 class Mesh:
     """Triangles in counter-clockwise order seen from outside.
 
-    `vertices` (V, 3) and `faces` (F, 3); `normals` (V, 3) are unit and outward, `colors` (V, 3) sRGB in 0..1.
+    `vertices` (V, 3) and `faces` (F, 3); `normals` (V, 3) are unit and outward, `colors` (V, 3) sRGB in 0..255.
     `surface_error` is the largest measured distance of a face's middle from the true surface, in the mesh's own unit.
     """
 
     vertices: Array
     faces: Triangles
-    normals: Array | None = None
-    colors: Array | None = None
+    normals: NDArray[np.float32] | None = None
+    colors: NDArray[np.uint8] | None = None
     surface_error: float | None = None
 
 
@@ -36,20 +36,15 @@ def reflected(mesh: Mesh, axis: int) -> Mesh:
     Vertices whose coordinate is exactly 0 are shared; the others must all lie on one side.
     """
     shared = mesh.vertices[:, axis] == 0
-    flip = np.ones(3)
+    flip = np.ones(3, dtype=np.float32)
     flip[axis] = -1
-    image_of = np.cumsum(~shared) - 1 + len(mesh.vertices)
+    image_of = (np.cumsum(~shared) - 1 + len(mesh.vertices)).astype(np.int32)
     image_of[shared] = np.flatnonzero(shared)
-
-    def both(values: Array | None, signs: Array | float) -> Array | None:
-        return None if values is None else np.concatenate([values, values[~shared] * signs])
-
-    vertices = both(mesh.vertices, flip)
-    assert vertices is not None
+    normals, colors = mesh.normals, mesh.colors
     return Mesh(
-        vertices + 0.0,
+        np.concatenate([mesh.vertices, mesh.vertices[~shared] * flip]) + 0.0,
         np.concatenate([mesh.faces, image_of[mesh.faces][:, ::-1]]),
-        both(mesh.normals, flip),
-        both(mesh.colors, 1.0),
+        None if normals is None else np.concatenate([normals, normals[~shared] * flip]),
+        None if colors is None else np.concatenate([colors, colors[~shared]]),
         mesh.surface_error,
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hqmodel.field import Terms, log_gradient, log_ratio, near_linear
+from hqmodel.field import Terms, log_gradient, log_ratio, near_linear, near_linear_slope
 
 from .extract import Patch
 from .grid import Grid
@@ -13,9 +13,9 @@ from .mesh import Array
 
 # A vertex nearer to a node than this share of the edge is moved off it and back onto the surface sideways, so that the
 # vertices around a node that lies almost on the surface stay apart.
-_CROWDED = 0.02
-_ROUNDS = 60
-_PRECISE = 1e-12
+_CROWDED = 0.01
+# The width of a root's bracket, as a share of its edge.
+_PRECISE = 1e-8
 
 
 def place_vertices(terms: Terms, grid: Grid, patch: Patch) -> Array:
@@ -59,28 +59,41 @@ def _held(grid: Grid, edge: NDArray[np.int64]) -> NDArray[np.bool_]:
 
 
 def _roots(terms: Terms, start: Array, end: Array, ends: Array) -> Array:
-    """Shares (n,) along edges at which the field is 0, by the Illinois method, bisecting where that is slow.
+    """Shares (n,) along edges at which the field is 0, by Chandrupatla's method (1997, Adv. Eng. Software 28).
 
-    `ends` (n, 2) are near-linear samples of opposite sign.
+    `ends` (n, 2) are near-linear samples of opposite sign. The bracket of each root shrinks below `_PRECISE` of its edge, by
+    inverse quadratic interpolation where that is safe and by halves elsewhere.
     """
-    low, high = np.zeros(len(start)), np.ones(len(start))
-    f_low, f_high = ends[:, 0].copy(), ends[:, 1].copy()
-    share = np.where(f_low == 0, 0.0, np.where(f_high == 0, 1.0, 0.5))
-    active = np.flatnonzero((f_low != 0) & (f_high != 0))
-    for round_ in range(_ROUNDS):
-        if not active.size:
-            break
-        a, b, fa, fb = low[active], high[active], f_low[active], f_high[active]
-        guess = (a + b) / 2 if round_ % 4 == 3 else np.clip(a + (b - a) * (fa / (fa - fb)), a, b)
-        f = near_linear(terms, log_ratio(terms, start[active] + (end[active] - start[active]) * guess[:, None]))
-        same = (f > 0) == (fb > 0)
-        share[active] = guess
-        low[active], high[active] = np.where(same, a, guess), np.where(same, guess, b)
-        f_low[active] = np.where(same, fa * 0.5, f)
-        f_high[active] = np.where(same, f, fb * 0.5)
-        done = (np.abs(f) < _PRECISE * 1e-1) | (high[active] - low[active] < _PRECISE)
-        active = active[~done]
+    share = np.where(ends[:, 0] == 0, 0.0, 1.0)
+    active = np.flatnonzero((ends[:, 0] != 0) & (ends[:, 1] != 0))
+    a, b, c = np.ones(active.size), np.zeros(active.size), np.ones(active.size)
+    fa, fb, fc = ends[active, 1], ends[active, 0], ends[active, 1]
+    scale = np.abs(fa - fb)
+    step = np.clip(np.abs(fa) / scale, 0.05, 0.95)  # a straight line first: the samples are nearly linear
+    while active.size:
+        x = a + step * (b - a)
+        f = near_linear(terms, log_ratio(terms, start[active] + (end[active] - start[active]) * x[:, None]))
+        same = (f > 0) == (fa > 0)
+        c, fc = np.where(same, a, b), np.where(same, fa, fb)
+        b, fb = np.where(same, b, a), np.where(same, fb, fa)
+        a, fa = x, f
+        nearer = np.abs(fa) < np.abs(fb)
+        share[active] = np.where(nearer, a, b)
+        margin = _PRECISE / np.abs(b - c)
+        go_on = (margin <= 0.5) & (np.abs(f) > _PRECISE * 0.1 * scale)
+        step = _step_share(a, b, c, fa, fb, fc, margin)[go_on]
+        a, b, c, fa, fb, fc, scale, active = (values[go_on] for values in (a, b, c, fa, fb, fc, scale, active))
     return share
+
+
+def _step_share(a: Array, b: Array, c: Array, fa: Array, fb: Array, fc: Array, margin: Array) -> Array:
+    """Where between a and b to look next."""
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
+        quadratic = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
+        safe = (phi * phi < xi) & ((1 - phi) ** 2 < 1 - xi) & np.isfinite(quadratic)
+    margin = np.minimum(margin, 0.5)
+    return np.clip(np.where(safe, quadratic, 0.5), margin, 1 - margin)
 
 
 def _projected(terms: Terms, points: Array, otherwise: Array, fixed: NDArray[np.bool_], cell: float) -> Array:
@@ -88,21 +101,26 @@ def _projected(terms: Terms, points: Array, otherwise: Array, fixed: NDArray[np.
 
     A point that does not arrive, or would go further than a tenth of a cell, becomes `otherwise`.
     """
-    moved = points.copy()
-    for _ in range(6):
-        ratio, slope = log_gradient(terms, moved)
-        linear, rate = _linear_slope(terms, ratio)
-        slope = np.where(fixed, 0.0, slope * rate[:, None])
-        square = np.maximum(np.sum(slope * slope, axis=1), 1e-300)
-        step = np.clip(linear / square, -1e300, 1e300)[:, None] * slope
-        length = np.linalg.norm(step, axis=1, keepdims=True)
-        moved = moved - step * np.minimum(1.0, 0.05 * cell / np.maximum(length, 1e-300))
-    arrived = (length[:, 0] < 1e-6 * cell) & (np.linalg.norm(moved - points, axis=1) < 0.1 * cell)
+    moved, last = to_surface(terms, points, 0.05 * cell, 4, fixed)
+    arrived = (last < 1e-6 * cell) & (np.linalg.norm(moved - points, axis=1) < 0.1 * cell)
     return np.where(arrived[:, None], moved, otherwise)
 
 
-def _linear_slope(terms: Terms, ratio: Array) -> tuple[Array, Array]:
-    """The near-linear field and its derivative by L, (n,) each."""
-    linear = near_linear(terms, ratio)
-    small = 1e-6 * (1 + np.abs(ratio))
-    return linear, np.maximum(near_linear(terms, ratio + small) - near_linear(terms, ratio - small), 1e-300) / (2 * small)
+def to_surface(
+    terms: Terms, points: Array, stride: float, rounds: int, fixed: NDArray[np.bool_] | None = None
+) -> tuple[Array, Array]:
+    """Points (n, 3) near the surface after Newton steps of at most `stride` towards it, and each last step's length (n,).
+
+    The steps are taken in the near-linear field, so that they neither creep from outside nor leap from inside.
+    """
+    moved = points
+    for _ in range(rounds):
+        ratio, slope = log_gradient(terms, moved)
+        slope = slope * near_linear_slope(terms, ratio)[:, None]
+        if fixed is not None:
+            slope = np.where(fixed, 0.0, slope)
+        square = np.maximum(np.sum(slope * slope, axis=1), 1e-300)
+        step = np.clip(near_linear(terms, ratio) / square, -1e200, 1e200)[:, None] * slope
+        length = np.linalg.norm(step, axis=1)
+        moved = moved - step * np.minimum(1.0, stride / np.maximum(length, 1e-300))[:, None]
+    return moved, length

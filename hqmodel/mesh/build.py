@@ -11,14 +11,25 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hqmodel.field import Region, Terms, log_gradient, log_ratio, mirror_axes, mixed_colors, near_linear, region, relevant_terms
+from hqmodel.field import (
+    Region,
+    Terms,
+    log_gradient,
+    log_ratio,
+    mirror_axes,
+    mixed_colors,
+    near_linear,
+    near_linear_slope,
+    region,
+    relevant_terms,
+)
 from hqmodel.model import Scene
 
 from .cull import TILE, Blocks, blocks_of, tiles
-from .extract import NODES, extract
+from .extract import NODES, Patch, extract
 from .grid import Grid, make_grid
-from .measure import distances
-from .mesh import Array, Mesh, MeshError, reflected
+from .measure import largest_distance
+from .mesh import Array, Mesh, MeshError, Triangles, reflected
 from .refine import place_vertices
 
 Progress = Callable[[float, str], None]
@@ -46,7 +57,7 @@ def polygonize(scene: Scene, resolution: int = 256, progress: Progress | None = 
     if not pieces:
         raise MeshError("no surface: the field does not reach its level anywhere at this resolution")
     tell(0.95, "Joining")
-    mesh = _welded(pieces, grid)
+    mesh = _welded(pieces)
     for axis in mirrored:
         mesh = reflected(mesh, axis)
     tell(1.0, "Done")
@@ -67,9 +78,9 @@ class _Piece:
 
     keys: NDArray[np.int64]
     vertices: Array
-    faces: NDArray[np.int64]
-    normals: Array | None
-    colors: Array | None
+    faces: Triangles
+    normals: NDArray[np.float32] | None
+    colors: NDArray[np.uint8] | None
     error: float
 
 
@@ -91,16 +102,20 @@ def _piece(scene: Scene, terms: Terms, grid: Grid, tile: Blocks, shading: bool) 
     blocks = blocks_of(local, grid, tile)
     empty = np.empty((0, 3))
     if not len(blocks):
-        return _Piece(np.empty(0, np.int64), empty, np.empty((0, 3), np.int64), None, None, 0.0)
+        return _Piece(np.empty(0, np.int64), empty, np.empty((0, 3), np.int32), None, None, 0.0)
     patch = extract(blocks, _samples(local, grid, blocks), 1.0 / _step(local, grid))
     keys, first, inverse = np.unique(_keys(patch.edge, grid), return_index=True, return_inverse=True)
-    faces = inverse.reshape(-1)[patch.faces]
-    patch = type(patch)(patch.edge[first], patch.place[first], patch.ends[first], faces)
+    faces = inverse.reshape(-1).astype(np.int32)[patch.faces]
+    patch = Patch(patch.edge[first], patch.place[first], patch.ends[first], faces)
     vertices = place_vertices(local, grid, patch)
-    normals = _normals(local, vertices) if shading else None
-    colors = mixed_colors(scene, local, vertices) if shading else None
-    error = distances(local, vertices[faces].mean(axis=1), grid.cell) if len(faces) else np.zeros(1)
-    return _Piece(keys, vertices, faces, normals, colors, float(np.max(error)))
+    ratio, slope = log_gradient(local, vertices)
+    size = np.linalg.norm(slope, axis=1)
+    error = largest_distance(local, vertices, faces, size * near_linear_slope(local, ratio), grid.cell) if len(faces) else 0.0
+    if not shading:
+        return _Piece(keys, vertices, faces, None, None, error)
+    normals = (slope / -np.maximum(size, 1e-300)[:, None]).astype(np.float32)
+    colors = np.rint(mixed_colors(scene, local, vertices) * 255).astype(np.uint8)
+    return _Piece(keys, vertices, faces, normals, colors, error)
 
 
 def _step(terms: Terms, grid: Grid) -> float:
@@ -129,22 +144,15 @@ def _keys(edge: NDArray[np.int64], grid: Grid) -> NDArray[np.int64]:
     return ((edge[:, 0] * ny + edge[:, 1]) * nz + edge[:, 2]) * 4 + edge[:, 3]
 
 
-def _normals(terms: Terms, vertices: Array) -> Array:
-    _, slope = log_gradient(terms, vertices)
-    length = np.linalg.norm(slope, axis=1, keepdims=True)
-    return np.where(length > 0, -slope / np.maximum(length, 1e-300), 0.0)
-
-
-def _welded(pieces: list[_Piece], grid: Grid) -> Mesh:
+def _welded(pieces: list[_Piece]) -> Mesh:
     """The pieces joined where their tiles meet."""
-    keys = np.concatenate([piece.keys for piece in pieces])
-    _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
     starts = np.cumsum([0] + [len(piece.keys) for piece in pieces])
-    faces = np.concatenate([piece.faces + start for piece, start in zip(pieces, starts[:-1], strict=True)])
+    faces = np.concatenate([piece.faces + np.int32(start) for piece, start in zip(pieces, starts[:-1], strict=True)])
+    _, first, inverse = np.unique(np.concatenate([piece.keys for piece in pieces]), return_index=True, return_inverse=True)
 
     def joined(name: str) -> Any:
         parts = [getattr(piece, name) for piece in pieces]
         return None if parts[0] is None else np.concatenate(parts)[first]
 
     error = max(piece.error for piece in pieces)
-    return Mesh(joined("vertices"), inverse.reshape(-1)[faces], joined("normals"), joined("colors"), error)
+    return Mesh(joined("vertices"), inverse.reshape(-1).astype(np.int32)[faces], joined("normals"), joined("colors"), error)
