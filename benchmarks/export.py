@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hqmodel.field import Terms, region
 from hqmodel.mesh import polygonize
@@ -28,6 +29,7 @@ from hqmodel.model import Scene
 
 from .shapes import shapes
 
+Floats = NDArray[np.float32]
 _SLAB = 1 << 18
 
 
@@ -38,7 +40,9 @@ def dense(scene: Scene, cells: int) -> int:
     terms = Terms.of(scene)
     where = region(scene, terms)
     step = np.float32(np.max(where.size) / cells)
-    axes = [np.arange(low - step / 2, high + step, step, dtype=np.float32) for low, high in zip(where.low, where.high, strict=True)]
+    axes = [
+        np.arange(low - step / 2, high + step, step, dtype=np.float32) for low, high in zip(where.low, where.high, strict=True)
+    ]
     volume = np.empty([len(axis) for axis in axes], dtype=np.float32)
     rows = max(1, _SLAB // (len(axes[1]) * len(axes[2])))
     for start in range(0, len(axes[0]), rows):
@@ -46,10 +50,10 @@ def dense(scene: Scene, cells: int) -> int:
     return len(marching_cubes(volume, 0.0)[1])
 
 
-def _slab(terms: Terms, x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
+def _slab(terms: Terms, x: Floats, y: Floats, z: Floats) -> Floats:
     """The near-linear field on a slab, in float32, term by term."""
     one = np.float32(1.0)
-    total: np.ndarray | None = None
+    total: Floats | None = None
     for k in range(len(terms)):
         h_sum = np.zeros((len(x), len(y), len(z)), dtype=np.float32)
         for a in np.flatnonzero(terms.term_of_strip == k):
@@ -68,7 +72,10 @@ def _slab(terms: Terms, x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarr
 def _measure(method: str, name: str, cells: int) -> None:
     """In a process of its own: one measurement, printed as JSON."""
     scene = shapes()[name]
-    work = {"dense": lambda n: dense(scene, n), "hqmodel": lambda n: len(polygonize(scene, n).faces)}[method]
+
+    def work(n: int) -> int:
+        return dense(scene, n) if method == "dense" else len(polygonize(scene, n).faces)
+
     work(32)
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     start = time.perf_counter()
@@ -83,6 +90,10 @@ def _run(method: str, name: str, cells: int) -> dict[str, Any]:
     return dict(json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout))
 
 
+def _columns(measured: dict[str, Any]) -> str:
+    return f"{measured['seconds']:8.2f} {measured['mebibytes']:6.0f}"
+
+
 def main() -> None:
     """Run and print the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -95,16 +106,14 @@ def main() -> None:
         return
     rows = []
     print(f"{platform.processor() or platform.machine()}, NumPy {np.__version__}, Python {platform.python_version()}")
-    print(f"{'shape':24} {'cells':>5} | {'dense s':>8} {'MiB':>6} | {'hqmodel s':>9} {'MiB':>6} {'faces':>9} | {'faster':>6} {'memory':>6}")
+    print("shape                    cells |  dense s    MiB |  hqmodel s    MiB     faces | faster memory")
     for name in shapes():
         for cells in options.cells:
             peer, ours = _run("dense", name, cells), _run("hqmodel", name, cells)
             rows.append({"shape": name, "cells": cells, "dense": peer, "hqmodel": ours})
-            print(
-                f"{name:24} {cells:5} | {peer['seconds']:8.2f} {peer['mebibytes']:6.0f} | {ours['seconds']:9.2f} {ours['mebibytes']:6.0f}"
-                f" {ours['faces']:9} | {peer['seconds'] / ours['seconds']:5.1f}x {ours['mebibytes'] / peer['mebibytes']:5.2f}x",
-                flush=True,
-            )
+            faster, memory = peer["seconds"] / ours["seconds"], ours["mebibytes"] / peer["mebibytes"]
+            print(f"{name:24} {cells:5} | {_columns(peer)} |  {_columns(ours)} {ours['faces']:9} |", end=" ")
+            print(f"{faster:5.1f}x {memory:5.2f}x", flush=True)
     if options.json:
         options.json.write_text(json.dumps(rows, indent=1) + "\n")
 

@@ -11,8 +11,11 @@ _HADAMARD = [(0.5, 0.5, 0.5), (0.5, -0.5, -0.5), (-0.5, 0.5, -0.5), (-0.5, -0.5,
 _ICOSAHEDRAL = [(0, 1, _GOLDEN), (0, 1, -_GOLDEN), (1, _GOLDEN, 0), (1, -_GOLDEN, 0), (_GOLDEN, 0, 1), (-_GOLDEN, 0, 1)]
 
 
-def _lone(normals: list[tuple[float, float, float]], gamma: float, length: float = 1.0, slice_rate: float = 0.0, t: float = 0.0) -> Scene:
-    strips = tuple(Strip(normal=tuple(length * c for c in normal), gamma=gamma, slice=slice_rate) for normal in normals)
+Normals = list[tuple[float, float, float]]
+
+
+def _lone(normals: Normals, gamma: float, half_width: float = 1.0, rate: float = 0.0, t: float = 0.0) -> Scene:
+    strips = tuple(Strip(normal=normal, gamma=gamma, half_width=half_width, slice=rate) for normal in normals)
     return Scene(slice=t, shapes=(Shape(strips=strips),))
 
 
@@ -29,10 +32,11 @@ def _blended(count: int = 8) -> Scene:
 
 def shapes() -> dict[str, Scene]:
     """The benchmark scenes by name."""
-    thin = (Strip(normal=(1, 0, 0), gamma=60), Strip(normal=(0, 1, 0), gamma=60), Strip(normal=(0, 0, 1), gamma=60, half_width=0.02))
+    sides = Strip(normal=(1, 0, 0), gamma=60), Strip(normal=(0, 1, 0), gamma=60)
+    thin = (*sides, Strip(normal=(0, 0, 1), gamma=60, half_width=0.02))
     return {
-        "tetrahedral, gamma 8": _lone(_HADAMARD, 8.0, slice_rate=0.5, t=0.4),
-        "dodecahedral, gamma 40": _lone(_ICOSAHEDRAL, 40.0, length=1 / sqrt(1 + _GOLDEN**2)),
+        "tetrahedral, gamma 8": _lone(_HADAMARD, 8.0, rate=0.5, t=0.4),
+        "dodecahedral, gamma 40": _lone(_ICOSAHEDRAL, 40.0, half_width=sqrt(1 + _GOLDEN**2)),
         "plate, gamma 60": Scene(shapes=(Shape(strips=thin),)),
         "eight blended": _blended(),
         "astroid, gamma 0.6": _lone([(1, 0, 0), (0, 1, 0), (0, 0, 1)], 0.6),

@@ -1,8 +1,18 @@
 """The mathematics in NumPy float64: the field, its derivatives, exact bounds, the body's box and ray roots."""
 
-from .evaluate import Curvature, curvature, gradient, log_gradient, log_ratio, near_linear, near_linear_slope, shaping_strip, value
+from .colors import linear_to_srgb, mixed_colors, srgb_to_linear
+from .evaluate import (
+    Curvature,
+    curvature,
+    gradient,
+    log_gradient,
+    log_ratio,
+    near_linear,
+    near_linear_slope,
+    shaping_strip,
+    value,
+)
 from .intervals import box_bounds, relevant_terms, segment_bounds
-from .colors import mixed_colors
 from .rays import first_hits
 from .region import Region, reaches, region
 from .symmetry import mirror_axes
@@ -16,6 +26,7 @@ __all__ = [
     "curvature",
     "first_hits",
     "gradient",
+    "linear_to_srgb",
     "log_gradient",
     "log_ratio",
     "mirror_axes",
@@ -27,5 +38,6 @@ __all__ = [
     "relevant_terms",
     "segment_bounds",
     "shaping_strip",
+    "srgb_to_linear",
     "value",
 ]

@@ -219,7 +219,7 @@ class _Jet:
         terms = self.terms
         lowered = (terms.outer - order)[:, None]
         with np.errstate(over="ignore", divide="ignore"):
-            size, inside = self.largest, 1.0
+            size, inside = self.largest, np.ones(1)
             if terms.grouped:  # m^(G-order) may underflow where s^(G/g-order) overflows: rooted before it is raised
                 inner = terms.inner[terms.group_start][:, None]
                 size = size * self.spread ** (1 / inner)

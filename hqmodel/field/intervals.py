@@ -87,6 +87,6 @@ def relevant_terms(terms: Terms, low: ArrayLike, high: ArrayLike, negligible: fl
     if len(terms) < 2:
         return terms
     t_low, t_high = term_bounds(terms, *_box_ranges(terms, np.atleast_2d(low), np.atleast_2d(high)))
-    sides = [np.max(t_low[side], initial=-np.inf) for side in (terms.positive, ~terms.positive)]
-    sides.append(np.log(abs(terms.level)) if terms.level else -np.inf)
+    sides = [float(np.max(t_low[side], initial=-np.inf)) for side in (terms.positive, ~terms.positive)]
+    sides.append(float(np.log(abs(terms.level))) if terms.level else -np.inf)
     return terms.keep(t_high[:, 0] >= max(sides) - negligible)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .region import Region
-from .terms import Terms
+from .terms import Array, Terms
 
 
 def mirror_axes(terms: Terms, region: Region) -> tuple[int, ...]:
@@ -27,7 +27,7 @@ def mirror_axes(terms: Terms, region: Region) -> tuple[int, ...]:
     return tuple(found)
 
 
-def _signature(terms: Terms, flip: np.ndarray) -> Counter[Any]:
+def _signature(terms: Terms, flip: Array) -> Counter[Any]:
     """The terms as a multiset that does not depend on their order, nor on which of two bounding planes comes first."""
     planes = np.column_stack([terms.normal * flip, terms.offset]) + 0.0
     leading = planes[np.arange(len(planes)), np.argmax(planes != 0, axis=1)] if len(planes) else np.empty(0)
@@ -39,5 +39,7 @@ def _signature(terms: Terms, flip: np.ndarray) -> Counter[Any]:
     parts: list[list[Any]] = [[] for _ in terms.term_start]
     for g, (outer, sign, term) in enumerate(zip(terms.outer, terms.group_sign, terms.term_of_group, strict=True)):
         parts[term].append((float(outer), float(sign), tuple(sorted(groups[g]))))
-    numbers = zip(terms.coefficient.tolist(), terms.hardness.tolist(), terms.constant.tolist(), terms.term_source, strict=True)
-    return Counter((c, beta, constant, int(source), tuple(sorted(part))) for (c, beta, constant, source), part in zip(numbers, parts, strict=True))
+    numbers = zip(
+        terms.coefficient.tolist(), terms.hardness.tolist(), terms.constant.tolist(), terms.term_source.tolist(), strict=True
+    )
+    return Counter((*own, tuple(sorted(part))) for own, part in zip(numbers, parts, strict=True))

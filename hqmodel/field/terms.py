@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -171,7 +171,7 @@ class _Rows:
                     source = (index, member)
                     self.strips.append((normals[member] * signs, offsets[member], shape.strips[member].gamma, source))
 
-    def arrays(self) -> dict[str, NDArray[np.generic]]:
+    def arrays(self) -> dict[str, Any]:
         normal, offset, inner, source = zip(*self.strips, strict=True) if self.strips else ((), (), (), ())
         group_start, outer, sign = zip(*self.groups, strict=True) if self.groups else ((), (), ())
         term_start, c, beta, constant, shape = zip(*self.terms, strict=True) if self.terms else ((), (), (), (), ())

@@ -1,7 +1,22 @@
 """From the field to triangles, and triangles to files."""
 
+from .build import MAX_RESOLUTION, Progress, polygonize
+from .formats import write
 from .measure import report
 from .mesh import Mesh, MeshError
-from .build import MAX_RESOLUTION, polygonize
+from .placing import FORMATS, METRES, UP_AXIS, fitted, sized
 
-__all__ = ["MAX_RESOLUTION", "Mesh", "MeshError", "polygonize", "report"]
+__all__ = [
+    "FORMATS",
+    "MAX_RESOLUTION",
+    "METRES",
+    "UP_AXIS",
+    "Mesh",
+    "MeshError",
+    "Progress",
+    "fitted",
+    "polygonize",
+    "report",
+    "sized",
+    "write",
+]

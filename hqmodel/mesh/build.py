@@ -46,7 +46,7 @@ def polygonize(scene: Scene, resolution: int = 256, progress: Progress | None = 
     """
     if not 4 <= resolution <= MAX_RESOLUTION:
         raise MeshError(f"resolution: expected a whole number from 4 to {MAX_RESOLUTION}, got {resolution}")
-    tell = progress or (lambda share, doing: None)
+    tell = progress or _silent
     tell(0.0, "Finding the body")
     terms = Terms.of(scene)
     where = region(scene, terms)
@@ -64,12 +64,17 @@ def polygonize(scene: Scene, resolution: int = 256, progress: Progress | None = 
     return mesh
 
 
+def _silent(share: float, doing: str) -> None:
+    pass
+
+
 def _must_exist(scene: Scene, where: Region) -> None:
     if where.empty:
-        reason = "there is no visible shape" if not any(shape.visible for shape in scene.shapes) else "the field is below its level everywhere"
+        seen = any(shape.visible for shape in scene.shapes)
+        reason = "the field is below its level everywhere" if seen else "there is no visible shape"
         raise MeshError(f"no surface: {reason}")
     if not where.bounded:
-        raise MeshError('bounds: expected a box to cut the body by, as it runs on without end, got none (add "bounds" to the preset)')
+        raise MeshError("bounds: expected a box to cut the body by, as it runs on without end, got none")
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,7 +14,7 @@ from skimage.measure import marching_cubes
 
 from .cull import Blocks
 from .grid import BLOCK
-from .mesh import Array
+from .mesh import Array, Triangles
 
 NODES = BLOCK + 1
 # Blocks in one call; float32 coordinates of the packed array stay finer than a thousandth of a cell.
@@ -36,7 +36,7 @@ class Patch:
     edge: NDArray[np.int64]
     place: Array
     ends: Array
-    faces: NDArray[np.int64]
+    faces: Triangles
 
 
 def extract(blocks: Blocks, samples: Array, steepness: float) -> Patch:
@@ -48,7 +48,7 @@ def extract(blocks: Blocks, samples: Array, steepness: float) -> Patch:
         np.concatenate([patch.edge for patch in patches]),
         np.concatenate([patch.place for patch in patches]),
         np.concatenate([patch.ends for patch in patches]),
-        np.concatenate([patch.faces + start for patch, start in zip(patches, starts[:-1], strict=True)]),
+        np.concatenate([patch.faces + np.int32(start) for patch, start in zip(patches, starts[:-1], strict=True)]),
     )
 
 
@@ -56,15 +56,15 @@ def _packed(blocks: Blocks, samples: Array, steepness: float) -> Patch:
     volume = np.where(samples > 0, 1.0, -1.0) * np.clip(np.abs(samples) * steepness, _LEAST, _MOST)
     inside = volume > 0
     if inside.all() or not inside.any():
-        return Patch(np.empty((0, 4), np.int64), np.empty((0, 3)), np.empty((0, 2)), np.empty((0, 3), np.int64))
+        return Patch(np.empty((0, 4), np.int64), np.empty((0, 3)), np.empty((0, 2)), np.empty((0, 3), np.int32))
     packed = volume.astype(np.float32).reshape(-1, NODES, NODES)
     mask = np.ones(packed.shape, dtype=bool)
     mask[::NODES] = False  # a cell is masked by its far corner
     found, faces, _, _ = marching_cubes(packed, 0.0, mask=mask, gradient_direction="ascent")
-    return _named(blocks, samples, found.astype(float), faces.astype(np.int64))
+    return _named(blocks, samples, found.astype(float), faces.astype(np.int32))
 
 
-def _named(blocks: Blocks, samples: Array, found: Array, faces: NDArray[np.int64]) -> Patch:
+def _named(blocks: Blocks, samples: Array, found: Array, faces: Triangles) -> Patch:
     nearest = np.rint(found)
     between = np.abs(found - nearest) > _ON_NODE
     node = np.where(between, np.floor(found), nearest).astype(np.int64)

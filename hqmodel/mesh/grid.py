@@ -36,10 +36,12 @@ class Grid:
         return x, y, z
 
     def corners(self, blocks: NDArray[np.int64], size: int) -> tuple[Array, Array]:
-        """Low and high corners, (n, 3) each, of cubes of `size` cells whose first nodes are `blocks` (n, 3), cut off at the end."""
-        low = np.stack([nodes[blocks[:, i]] for i, nodes in enumerate(self.nodes)], axis=1)
-        high = np.stack([nodes[np.minimum(blocks[:, i] + size, len(nodes) - 1)] for i, nodes in enumerate(self.nodes)], axis=1)
-        return low, high
+        """Corners (n, 3) of cubes of `size` cells, cut off at the grid's end, whose first nodes are `blocks` (n, 3)."""
+        return self.points(blocks), self.points(blocks + size)
+
+    def points(self, node: NDArray[np.int64]) -> Array:
+        """World positions (n, 3) of nodes numbered (n, 3), those past the end at it."""
+        return np.stack([nodes[np.minimum(node[:, i], len(nodes) - 1)] for i, nodes in enumerate(self.nodes)], axis=1)
 
     def touches_outside(self, blocks: NDArray[np.int64], size: int) -> NDArray[np.bool_]:
         """Whether cubes of cells hold nodes beyond a cut, (n,)."""
@@ -65,10 +67,11 @@ def make_grid(region: Region, resolution: int, mirrored: tuple[int, ...]) -> Gri
 
 def _axis(low: float, high: float, cell: float, mirrored: bool, cut: bool) -> tuple[Array, NDArray[np.bool_]]:
     count = max(_FEWEST_CELLS, ceil((high - low) / cell - 1e-9))
+    nodes: Array
     if mirrored:
         nodes = _half_axis(max(high, -low), count, cut)
     elif cut:
-        nodes = np.linspace(low, high, count + 1)
+        nodes = low + (high - low) * np.arange(count + 1) / count
     else:
         step = (high - low) / count
         nodes = low + (np.arange(count + 2) - 0.5) * step
@@ -82,9 +85,8 @@ def _axis(low: float, high: float, cell: float, mirrored: bool, cut: bool) -> tu
 def _half_axis(high: float, count: int, cut: bool) -> Array:
     """Nodes from 0 outwards: up to the cut, or half a cell beyond the body."""
     half = (count + 1) // 2
-    if cut:
-        return np.linspace(0, high, half + 1)
-    return np.arange(half + 2) * (high / (half + 0.5))
+    nodes: Array = high * np.arange(half + 1) / half if cut else np.arange(half + 2) * (high / (half + 0.5))
+    return nodes
 
 
 def _whole_blocks(nodes: Array, outside: NDArray[np.bool_], step: float) -> tuple[Array, NDArray[np.bool_]]:

@@ -52,4 +52,5 @@ def _closed(mesh: Mesh) -> tuple[bool, int]:
     forward = np.sort(start * count + end)
     backward = np.sort(end * count + start)
     simple = bool(np.all(np.diff(forward) > 0)) if len(forward) else False
-    return simple and bool(np.array_equal(forward, backward)), len(np.unique(np.minimum(start, end) * count + np.maximum(start, end)))
+    edges = np.unique(np.minimum(start, end) * count + np.maximum(start, end))
+    return simple and bool(np.array_equal(forward, backward)), len(edges)

@@ -22,11 +22,11 @@ def place_vertices(terms: Terms, grid: Grid, patch: Patch) -> Array:
     """World positions (V, 3) of a patch's vertices, on the surface; exactly in the planes of the grid that their edges lie in
     at a mirror plane or a cut."""
     node, axis = patch.edge[:, :3], patch.edge[:, 3]
-    start = _positions(grid, node)
+    start = grid.points(node)
     along = node.copy()
     rows = np.flatnonzero(axis < 3)
     along[rows, axis[rows]] += 1
-    end = _positions(grid, along)
+    end = grid.points(along)
     points = start + (end - start) * 0.5
     free = np.flatnonzero((axis < 3) & np.all(np.isfinite(patch.ends), axis=1) & np.any(start != end, axis=1))
     share = _roots(terms, start[free], end[free], patch.ends[free])
@@ -39,14 +39,10 @@ def place_vertices(terms: Terms, grid: Grid, patch: Patch) -> Array:
         points[crowded] = _projected(terms, aside, points[crowded], fixed, grid.cell)
     centre = np.flatnonzero(axis == 3)
     if centre.size:
-        far = _positions(grid, node[centre] + 1)
+        far = grid.points(node[centre] + 1)
         inner = start[centre] + (far - start[centre]) * patch.place[centre]
         points[centre] = _projected(terms, inner, inner, np.zeros((centre.size, 3), dtype=bool), grid.cell)
     return points
-
-
-def _positions(grid: Grid, node: NDArray[np.int64]) -> Array:
-    return np.stack([nodes[np.minimum(node[:, i], len(nodes) - 1)] for i, nodes in enumerate(grid.nodes)], axis=1)
 
 
 def _held(grid: Grid, edge: NDArray[np.int64]) -> NDArray[np.bool_]:

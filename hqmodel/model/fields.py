@@ -67,7 +67,7 @@ class Number:
         return Field(... if self.default is None else self.default, title=self.label, description=self.help)
 
 
-_EXPONENT = {"low": 0.05, "high": 1000.0, "slider": (0.2, 100.0), "logarithmic": True}
+_EXPONENT: dict[str, Any] = {"low": 0.05, "high": 1000.0, "slider": (0.2, 100.0), "logarithmic": True}
 _XYZ = ("x", "y", "z")
 
 FIELDS: dict[str, Number] = {

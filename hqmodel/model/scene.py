@@ -7,15 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from math import hypot, sqrt
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Final, Literal, Self
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, Strict, field_validator, model_validator
 from pydantic_core import PydanticCustomError
 
 from .fields import FIELDS, MAX_SHAPES, MAX_STRIPS, shown
 
-FORMAT = "hqmodel"
-VERSION = 1
+FORMAT: Final = "hqmodel"
+VERSION: Final = 1
 # How far from 1 the length of a stored quaternion may be; it is made exactly unit where it is used.
 UNIT_TOLERANCE = 1e-3
 
@@ -66,8 +66,8 @@ class Strip(Value):
     offset: float = FIELDS["shapes[].strips[].offset"].field()
     half_width: float = FIELDS["shapes[].strips[].half_width"].field()
     gamma: float = FIELDS["shapes[].strips[].gamma"].field()
-    sign: Sign = Field(1, title="Sign", description="1 closes the shape across the strip; -1 makes it hyperbolic.")
-    group: str | None = Field(None, title="Group", description="The group whose outer exponent this strip shares.")
+    sign: Sign = Field(default=1, title="Sign", description="1 closes the shape across the strip; -1 makes it hyperbolic.")
+    group: str | None = Field(default=None, title="Group", description="The group whose outer exponent this strip shares.")
 
     @field_validator("normal")
     @classmethod
@@ -81,7 +81,7 @@ class Group(Value):
     """Strips raised together, sign (sum |h|^g)^(gamma/g), g their shared inner exponent (eqs. 7, 14)."""
 
     gamma: float = FIELDS["shapes[].groups{}.gamma"].field()
-    sign: Sign = Field(1, title="Sign", description="-1 makes the group hyperbolic.")
+    sign: Sign = Field(default=1, title="Sign", description="-1 makes the group hyperbolic.")
 
 
 class Transform(Value):
@@ -109,7 +109,7 @@ class Shape(Value):
     constant: float = FIELDS["shapes[].constant"].field()
     color: tuple[Channel, Channel, Channel] = FIELDS["shapes[].color[]"].vector()
     visible: Flag = True
-    mirror: tuple[Axis, ...] = Field((), description="World planes through the origin in which mirror images are added.")
+    mirror: tuple[Axis, ...] = Field(default=(), description="World planes through the origin in which mirror images are added.")
     transform: Transform = Transform()
     groups: dict[str, Group] = Field(default_factory=dict)
     strips: tuple[Strip, ...]
@@ -154,9 +154,9 @@ class Scene(Value):
     slice: float = FIELDS["slice"].field()
     level: float = FIELDS["level"].field()
     shapes: tuple[Shape, ...] = Field(max_length=MAX_SHAPES)
-    bounds: tuple[Vector, Vector] | None = Field(None, description=FIELDS["bounds[][]"].help)
+    bounds: tuple[Vector, Vector] | None = Field(default=None, description=FIELDS["bounds[][]"].help)
     view: dict[str, Any] = Field(default_factory=dict, description="The modeller's camera and shading.")
-    animations: tuple[dict[str, Any], ...] = Field((), description="Named sweeps of numeric fields.")
+    animations: tuple[dict[str, Any], ...] = Field(default=(), description="Named sweeps of numeric fields.")
 
     @model_validator(mode="before")
     @classmethod
