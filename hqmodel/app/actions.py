@@ -1,0 +1,272 @@
+"""The one table of actions: what menus, shortcuts and the list of shortcuts are made of."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial, reduce
+from typing import TYPE_CHECKING
+
+from hqmodel import edit
+from hqmodel.edit.primitives import FLAT
+from hqmodel.field import region
+from hqmodel.model import VIEWS, Strip
+
+from .asks import About, ChooseFile, ExportAs, ExportSettings, New, Problem, Quit, Shortcuts
+from .intents import Edit, Select
+from .view import MODES
+
+if TYPE_CHECKING:
+    from .session import Session
+
+THEMES = ("dark", "light")
+PANELS = ("Outliner", "Presets", "Properties", "Scene")
+
+
+def _always(_: Session) -> bool:
+    return True
+
+
+def _nothing(_: Session) -> str:
+    return ""
+
+
+@dataclass(frozen=True)
+class Action:
+    """One thing that can be done. `shortcuts` are written as people write them, Ctrl+Shift+S; the menu shows the first.
+
+    `detail` is added to the label: what would be undone, for one.
+    """
+
+    label: str
+    run: Callable[[Session], None]
+    shortcuts: tuple[str, ...] = ()
+    enabled: Callable[[Session], bool] = _always
+    checked: Callable[[Session], bool] | None = None
+    detail: Callable[[Session], str] = _nothing
+
+    def title(self, session: Session) -> str:
+        detail = self.detail(session)
+        return f"{self.label} {detail}" if detail else self.label
+
+
+def perform(session: Session, name: str) -> None:
+    """Do the action of that name, unless it can't be done now."""
+    action = ACTIONS[name]
+    if action.enabled(session):
+        action.run(session)
+
+
+# File
+
+
+def _save(session: Session) -> None:
+    session.release()
+    session.save(session.document.path)
+
+
+def _open(session: Session) -> None:
+    session.dialogs.append(ChooseFile("open", session.folder))
+
+
+def _save_as(session: Session) -> None:
+    session.release()
+    session.save(None)
+
+
+def _exporting(session: Session) -> bool:
+    return session.export is not None
+
+
+def _stop_export(session: Session) -> None:
+    if session.export is not None:
+        session.export.cancel()
+
+
+def _export(session: Session) -> None:
+    session.release()
+    if session.region.empty or not session.region.bounded:
+        reason = "there is no body to export" if session.region.empty else UNBOUNDED
+        session.dialogs.append(Problem("Nothing to export", (reason,)))
+        return
+    path = session.folder / session.document.file_name
+    session.dialogs.append(ExportAs(ExportSettings(path.with_suffix(".glb"))))
+
+
+UNBOUNDED = "The body runs on without end: give it bounds in the Scene panel, the box that it is cut by."
+
+
+# Edit
+
+
+def _selected(session: Session) -> bool:
+    return bool(session.selection.shapes)
+
+
+def _add_shape(kind: str, session: Session) -> None:
+    shape = edit.new_shape(kind, session.scene.dimension)
+    session.apply([Edit(f"Add {kind}", partial(edit.add_shape, shape=shape)), Select(len(session.scene.shapes))])
+
+
+def _add_strip(session: Session) -> None:
+    """A strip across the diagonal, where it bites into most shapes and so can be seen."""
+    shape = session.selection.active
+    if shape is not None:
+        strip = Strip(normal=(0.7, 0.7, 0.0), gamma=FLAT)
+        count = len(session.scene.shapes[shape].strips)
+        session.apply([Edit("Add strip", partial(edit.add_strip, shape=shape, strip=strip)), Select(shape, count)])
+
+
+def _duplicate(session: Session) -> None:
+    shape, strip = session.selection.active, session.selection.strip
+    if shape is not None and strip is not None:
+        session.apply(
+            [Edit("Duplicate strip", partial(edit.duplicate_strip, shape=shape, index=strip)), Select(shape, strip + 1)]
+        )
+    elif shape is not None:
+        chosen = sorted(session.selection.shapes, reverse=True)
+        session.apply([Edit("Duplicate", lambda scene: reduce(edit.duplicate_shape, chosen, scene)), Select(shape + 1)])
+
+
+def _delete(session: Session) -> None:
+    shape, strip = session.selection.active, session.selection.strip
+    if shape is not None and strip is not None:
+        session.apply([Edit("Delete strip", partial(edit.remove_strip, shape=shape, index=strip)), Select(shape)])
+    else:
+        session.apply([Edit("Delete", partial(edit.remove_shapes, indices=session.selection.shapes)), Select(None)])
+
+
+def _movable(by: int, session: Session) -> bool:
+    shape, strip = session.selection.active, session.selection.strip
+    if shape is None:
+        return False
+    if strip is None:
+        return 0 <= shape + by < len(session.scene.shapes)
+    return 0 <= strip + by < len(session.scene.shapes[shape].strips)
+
+
+def _move(by: int, session: Session) -> None:
+    shape, strip = session.selection.active, session.selection.strip
+    if shape is None:
+        return
+    if strip is None:
+        session.apply([Edit("Reorder", partial(edit.move_shape, index=shape, to=shape + by)), Select(shape + by)])
+    else:
+        change = partial(edit.move_strip, shape=shape, index=strip, to=strip + by)
+        session.apply([Edit("Reorder", change), Select(shape, strip + by)])
+
+
+# View
+
+
+def _in_mode(mode: str, session: Session) -> bool:
+    return session.view.mode == mode
+
+
+def _set_mode(mode: str, session: Session) -> None:
+    session.view = replace(session.view, mode=mode)
+
+
+def _look(name: str, session: Session) -> None:
+    session.view = session.view.moved(session.view.camera.looking(name))
+
+
+def _switch_projection(session: Session) -> None:
+    camera = session.view.camera
+    session.view = session.view.moved(replace(camera, orthographic=not camera.orthographic))
+
+
+def _frame_all(session: Session) -> None:
+    session.frame(session.region)
+
+
+def _frame_selected(session: Session) -> None:
+    """The selected shapes by themselves, hidden or not; all where none is selected."""
+    chosen = tuple(session.scene.shapes[index].changed(visible=True) for index in session.selection.shapes)
+    alone = session.scene.changed(shapes=chosen, bounds=None) if chosen else session.scene
+    box = region(alone)
+    session.frame(session.region if box.empty or not box.bounded else box)
+
+
+def _panel_shown(name: str, session: Session) -> bool:
+    return name not in session.hidden_panels
+
+
+def _toggle_panel(name: str, session: Session) -> None:
+    session.hidden_panels ^= {name}
+
+
+def _reset_layout(session: Session) -> None:
+    session.hidden_panels.clear()
+    session.layout_wanted = True
+
+
+def _in_theme(name: str, session: Session) -> bool:
+    return session.theme == name
+
+
+def _set_theme(name: str, session: Session) -> None:
+    session.keep(session.settings.preferring(theme=name))
+
+
+_KEYS = {"front": "Num 1", "right": "Num 3", "top": "Num 7", "back": "Ctrl+Num 1", "left": "Ctrl+Num 3", "bottom": "Ctrl+Num 7"}
+
+ACTIONS: dict[str, Action] = {
+    "new": Action("New", lambda s: s.leave(New()), ("Ctrl+N",)),
+    "open": Action("Open...", _open, ("Ctrl+O",)),
+    "save": Action("Save", _save, ("Ctrl+S",)),
+    "save as": Action("Save As...", _save_as, ("Ctrl+Shift+S",)),
+    "export": Action("Export...", _export, ("Ctrl+E",), lambda s: s.export is None),
+    "stop export": Action("Stop the Export", _stop_export, (), _exporting),
+    "quit": Action("Quit", lambda s: s.leave(Quit()), ("Ctrl+Q",)),
+    "undo": Action("Undo", lambda s: s.undo(), ("Ctrl+Z",), lambda s: s.history.can_undo, None, lambda s: s.history.undo_label),
+    "redo": Action(
+        "Redo", lambda s: s.redo(), ("Ctrl+Shift+Z", "Ctrl+Y"), lambda s: s.history.can_redo, None, lambda s: s.history.redo_label
+    ),
+    "duplicate": Action("Duplicate", _duplicate, ("Ctrl+D",), _selected),
+    "delete": Action("Delete", _delete, ("Del", "X"), _selected),
+    "move up": Action("Move Up", partial(_move, -1), ("Ctrl+Up",), partial(_movable, -1)),
+    "move down": Action("Move Down", partial(_move, 1), ("Ctrl+Down",), partial(_movable, 1)),
+    **{f"add {kind}": Action(kind.capitalize(), partial(_add_shape, kind)) for kind in edit.PRIMITIVES},
+    "add strip": Action("Strip", _add_strip, (), _selected),
+    **{
+        f"mode {mode}": Action(mode.capitalize(), partial(_set_mode, mode), (), _always, partial(_in_mode, mode))
+        for mode in MODES
+    },
+    **{
+        f"view {name}": Action(name.capitalize(), partial(_look, name), (_KEYS[name],) if name in _KEYS else ()) for name in VIEWS
+    },
+    "orthographic": Action("Orthographic", _switch_projection, ("Num 5",), _always, lambda s: s.view.camera.orthographic),
+    "frame all": Action("Frame All", _frame_all, ("Home",)),
+    "frame selected": Action("Frame Selected", _frame_selected, ("F", "Num .")),
+    **{f"panel {name}": Action(name, partial(_toggle_panel, name), (), _always, partial(_panel_shown, name)) for name in PANELS},
+    "reset layout": Action("Reset the Layout", _reset_layout),
+    **{
+        f"theme {name}": Action(name.capitalize(), partial(_set_theme, name), (), _always, partial(_in_theme, name))
+        for name in THEMES
+    },
+    "shortcuts": Action("Shortcuts", lambda s: s.dialogs.append(Shortcuts()), ("F1",)),
+    "about": Action("About", lambda s: s.dialogs.append(About())),
+}
+
+Entry = str | None | tuple[str, tuple[str, ...]]
+RECENT = "recent"
+
+# The menu bar: names of actions, None for a line between, a pair for a menu within; RECENT stands for the recent files.
+MENUS: dict[str, tuple[Entry, ...]] = {
+    "File": ("new", "open", RECENT, None, "save", "save as", None, "export", "stop export", None, "quit"),
+    "Edit": ("undo", "redo", None, "duplicate", "delete", "move up", "move down"),
+    "Add": (*(f"add {kind}" for kind in edit.PRIMITIVES), None, "add strip"),
+    "View": (
+        *(f"mode {mode}" for mode in MODES),
+        None,
+        "frame all",
+        "frame selected",
+        ("Look From", tuple(f"view {name}" for name in VIEWS)),
+        "orthographic",
+        None,
+        ("Panels", (*(f"panel {name}" for name in PANELS), "reset layout")),
+        ("Theme", tuple(f"theme {name}" for name in THEMES)),
+    ),
+    "Help": ("shortcuts", "about"),
+}

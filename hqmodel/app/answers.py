@@ -1,0 +1,36 @@
+"""What follows from the answer to each dialog."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .asks import ChooseFile, Dialog, ExportAs, ExportSettings, Open, Unsaved
+
+if TYPE_CHECKING:
+    from .session import Session
+
+
+def take(session: Session, dialog: Dialog, value: object) -> None:
+    """Go on from a dialog that was answered with this value, None for cancelled, and is closed by now."""
+    match dialog, value:
+        case Unsaved(departure=departure), "save":
+            session.save(session.document.path, then=departure)
+        case Unsaved(departure=departure), "discard":
+            session.depart(departure)
+        case ChooseFile(purpose="open"), Path() as path:
+            session.leave(Open(path))
+        case ChooseFile(purpose="save"), Path() | None as path:
+            session.save_chosen(path)
+        case ChooseFile(purpose="export"), Path() as path:
+            _export_to(session, path)
+        case ExportAs(), ExportSettings() as settings:
+            session.start_export(settings)
+
+
+def _export_to(session: Session, path: Path) -> None:
+    """The chosen file goes into the export dialog that asked for it."""
+    asking = session.dialogs[-1]
+    if isinstance(asking, ExportAs):
+        session.dialogs[-1] = ExportAs(replace(asking.settings, path=path))

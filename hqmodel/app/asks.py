@@ -1,0 +1,113 @@
+"""What can be asked or told in a dialog, as values, and the ways to leave the open preset that need asking.
+
+How each dialog is drawn is in `dialogs`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Literal
+
+Purpose = Literal["open", "save", "export"]
+Unit = Literal["mm", "cm", "m", "in"]
+Up = Literal["y", "z"]
+Choice = Literal["save", "discard"]
+
+
+@dataclass(frozen=True)
+class Open:
+    """A preset file instead of the present scene."""
+
+    path: Path
+
+
+@dataclass(frozen=True)
+class New:
+    """An empty start instead of the present scene."""
+
+
+@dataclass(frozen=True)
+class Quit:
+    """The window closed."""
+
+
+Departure = Open | New | Quit
+
+
+@dataclass(frozen=True)
+class Unsaved:
+    """Work would be lost by leaving. Answered by a Choice."""
+
+    name: str
+    departure: Departure
+
+
+@dataclass(frozen=True)
+class ChooseFile:
+    """A file to open or to write. Answered by its Path. `replacing`: that there is one already has been said."""
+
+    purpose: Purpose
+    folder: Path
+    name: str = ""
+    endings: tuple[str, ...] = (".json",)
+    replacing: bool = False
+
+    @property
+    def path(self) -> Path:
+        """What is chosen so far; a file to be written gets the first ending where it has none of them."""
+        path = self.folder / self.name
+        if self.purpose == "open" or path.suffix.lower() in self.endings:
+            return path
+        return path.with_name(path.name + self.endings[0])
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Something went wrong; nothing was lost."""
+
+    title: str
+    lines: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class ExportSettings:
+    """What a mesh is written as, and where. None for unit, size or up: what the format's users expect."""
+
+    path: Path
+    resolution: int = 256
+    unit: Unit | None = None
+    size: float | None = None
+    up: Up | None = None
+    colors: bool = True
+    normals: bool = True
+
+
+@dataclass(frozen=True)
+class ExportAs:
+    """How the body shall be exported. Answered by ExportSettings."""
+
+    settings: ExportSettings
+
+
+@dataclass(frozen=True)
+class Exported:
+    """What an export has written."""
+
+    path: Path
+    seconds: float
+    report: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Shortcuts:
+    """The list of all shortcuts."""
+
+
+@dataclass(frozen=True)
+class About:
+    """What this program is."""
+
+
+Dialog = Unsaved | ChooseFile | Problem | ExportAs | Exported | Shortcuts | About

@@ -1,0 +1,159 @@
+"""How the body shall be exported, and what came of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Literal, TypeVar
+
+import numpy as np
+from imgui_bundle import imgui
+
+from ..asks import ChooseFile, Dialog, ExportAs, Exported, ExportSettings, Unit, Up
+from ..intents import Adjust, Answer, Ask, Intent
+from ..panels.status import ERROR
+from .buttons import buttons
+
+Key = TypeVar("Key", bound=str)
+
+_LABEL, _WIDTH = 8.0, 24.0
+_UNITS: dict[Unit | Literal[""], str] = {
+    "": "Format's own",
+    "mm": "Millimetres",
+    "cm": "Centimetres",
+    "m": "Metres",
+    "in": "Inches",
+}
+_UPS: dict[Up | Literal[""], str] = {"": "Format's own", "z": "z up", "y": "y up"}
+_RESOLUTIONS = 16, 1024
+
+
+def draw(dialog: Dialog) -> list[Intent]:
+    """Format and file, how fine, how large, and what goes along."""
+    from hqmodel.mesh import FORMATS
+
+    assert isinstance(dialog, ExportAs)
+    settings = dialog.settings
+    suffix = settings.path.suffix.lower()
+    chosen = _combo("Format", suffix, FORMATS)
+    if chosen != suffix:
+        settings = replace(settings, path=settings.path.with_suffix(chosen))
+    settings, browsing = _file(settings)
+    settings = _resolution(settings)
+    settings = _size(settings)
+    settings = replace(settings, up=_combo("Up", settings.up or "", _UPS) or None)
+    settings = _extras(settings)
+    problem = _problem(settings, list(FORMATS))
+    if problem:
+        imgui.text_colored(ERROR, problem)
+    pressed = buttons(["Export", "Cancel"], enabled=not problem)
+    changed: list[Intent] = [] if settings == dialog.settings else [Adjust(ExportAs(settings))]
+    if browsing:
+        return [*changed, Ask(ChooseFile("export", settings.path.parent, settings.path.name, (chosen,)))]
+    if pressed == "Cancel":
+        return [Answer()]
+    return [*changed, Answer(settings)] if pressed else changed
+
+
+def draw_report(dialog: Dialog) -> list[Intent]:
+    """The figures of the mesh that was written."""
+    assert isinstance(dialog, Exported)
+    imgui.text_unformatted(dialog.path.name)
+    imgui.text_disabled(str(dialog.path.parent))
+    imgui.spacing()
+    if imgui.begin_table("report", 2, imgui.TableFlags_.sizing_fixed_fit):
+        for name, value in [*dialog.report.items(), ("seconds", dialog.seconds)]:
+            imgui.table_next_row()
+            imgui.table_next_column()
+            imgui.text_disabled(name.replace("_", " ").capitalize())
+            imgui.table_next_column()
+            imgui.text_unformatted(_figure(value))
+        imgui.end_table()
+    return [Answer()] if buttons(["OK"]) else []
+
+
+def _figure(value: object) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, int):
+        return f"{value:,}"
+    if isinstance(value, float):
+        return f"{value:.5g}"
+    parts = np.asarray(value)
+    if parts.ndim == 2:
+        return " to ".join(_figure(list(row)) for row in parts)
+    return "(" + ", ".join(f"{float(part):.4g}" for part in parts) + ")" if parts.ndim == 1 else str(value)
+
+
+def _label(text: str) -> None:
+    imgui.align_text_to_frame_padding()
+    imgui.text_unformatted(text)
+    imgui.same_line(_LABEL * imgui.get_font_size())
+    imgui.set_next_item_width(_WIDTH * imgui.get_font_size())
+
+
+def _combo(label: str, present: Key, options: Mapping[Key, str]) -> Key:
+    """One of the options' keys, chosen by their names."""
+    _label(label)
+    if imgui.begin_combo(f"##{label}", options.get(present, present)):
+        for key, name in options.items():
+            if imgui.selectable(name, key == present)[0]:
+                present = key
+        imgui.end_combo()
+    return present
+
+
+def _file(settings: ExportSettings) -> tuple[ExportSettings, bool]:
+    _label("File")
+    browse = "Browse..."
+    imgui.set_next_item_width(
+        _WIDTH * imgui.get_font_size()
+        - imgui.calc_text_size(browse).x
+        - 2 * imgui.get_style().frame_padding.x
+        - imgui.get_style().item_spacing.x
+    )
+    changed, text = imgui.input_text("##file", str(settings.path))
+    if changed and Path(text).name:
+        settings = replace(settings, path=Path(text))
+    imgui.same_line()
+    return settings, imgui.button(browse)
+
+
+def _resolution(settings: ExportSettings) -> ExportSettings:
+    _label("Resolution")
+    flags = imgui.SliderFlags_.logarithmic | imgui.SliderFlags_.always_clamp
+    _, cells = imgui.slider_int("##resolution", settings.resolution, *_RESOLUTIONS, "%d cells along the longest side", flags)
+    return replace(settings, resolution=cells)
+
+
+def _size(settings: ExportSettings) -> ExportSettings:
+    """The unit, and how long the longest side shall be in it."""
+    unit = _combo("Unit", settings.unit or "", _UNITS)
+    _label("Longest side")
+    wanted, size = settings.size is not None, settings.size or 100.0
+    _, wanted = imgui.checkbox("##sized", wanted)
+    imgui.same_line()
+    imgui.begin_disabled(not wanted)
+    imgui.set_next_item_width(-1)
+    _, size = imgui.input_double("##size", size, 0.0, 0.0, f"%.6g {unit}")
+    imgui.end_disabled()
+    return replace(settings, unit=unit or None, size=size if wanted else None)
+
+
+def _extras(settings: ExportSettings) -> ExportSettings:
+    _label("With")
+    _, colors = imgui.checkbox("Colours", settings.colors)
+    imgui.same_line()
+    _, normals = imgui.checkbox("Normals", settings.normals)
+    return replace(settings, colors=colors, normals=normals)
+
+
+def _problem(settings: ExportSettings, endings: list[str]) -> str:
+    if settings.path.suffix.lower() not in endings:
+        return f"The file's ending must be one of {', '.join(endings)}"
+    if not settings.path.parent.is_dir():
+        return f"There is no folder {settings.path.parent}"
+    if settings.size is not None and not settings.size > 0:
+        return "The longest side must be above 0"
+    return ""

@@ -1,0 +1,61 @@
+"""The dialog in front, as a modal window; the others wait behind it until it is answered."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from imgui_bundle import imgui
+
+from ..asks import About, ChooseFile, Dialog, ExportAs, Exported, Problem, Shortcuts, Unsaved
+from ..intents import Answer, Ask, Intent
+from ..session import Session
+from . import about, chooser, exporting, problem, unsaved
+
+_DRAWN: dict[type[Dialog], Callable[[Dialog], list[Intent]]] = {
+    Unsaved: unsaved.draw,
+    ChooseFile: chooser.draw,
+    Problem: problem.draw,
+    ExportAs: exporting.draw,
+    Exported: exporting.draw_report,
+    Shortcuts: about.draw_shortcuts,
+    About: about.draw,
+}
+_FLAGS = imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_saved_settings
+
+
+def draw(session: Session) -> list[Intent]:
+    """What the dialog in front answers; Esc is no."""
+    if not session.dialogs:
+        return []
+    dialog = session.dialogs[-1]
+    title = _title(dialog)
+    if not imgui.is_popup_open(title):
+        imgui.open_popup(title)
+    middle = imgui.get_main_viewport().get_center()
+    imgui.set_next_window_pos(middle, imgui.Cond_.always, (0.5, 0.5))
+    if not imgui.begin_popup_modal(title, None, _FLAGS)[0]:
+        return []
+    intents = _DRAWN[type(dialog)](dialog)
+    if not intents and imgui.is_key_pressed(imgui.Key.escape) and not imgui.is_any_item_active():
+        intents = [Answer()]
+    if any(isinstance(intent, (Answer, Ask)) for intent in intents):
+        imgui.close_current_popup()
+    imgui.end_popup()
+    return intents
+
+
+def _title(dialog: Dialog) -> str:
+    match dialog:
+        case Problem(title=title):
+            return title
+        case ChooseFile(purpose=purpose):
+            return {"open": "Open", "save": "Save As", "export": "Export To"}[purpose]
+        case Unsaved():
+            return "Unsaved Changes"
+        case ExportAs():
+            return "Export"
+        case Exported():
+            return "Exported"
+        case Shortcuts():
+            return "Shortcuts"
+    return "About hqmodel"

@@ -1,0 +1,51 @@
+"""Whether a window can be opened here at all, asked before anything of the window is built."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+
+HEADLESS = "`hqmodel export`, `render`, `sample`, `raycast`, `check` and `presets` work without one"
+
+
+class NoDisplay(Exception):
+    """The machine lacks what a window needs; the message says what, and what works without."""
+
+
+def require() -> None:
+    """Raises NoDisplay, with one sentence, where no window with OpenGL 3.3 can be opened."""
+    import imgui_bundle  # noqa: F401  it comes first: it tells glfw which library the two share
+
+    # isort: split
+    import glfw
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", glfw.GLFWError)  # glfw reports as warnings what is raised here
+        if not glfw.init():
+            raise NoDisplay(f"hqmodel: no display to open a window on ({_where()}); {HEADLESS}")
+        try:
+            _probe()
+        finally:
+            glfw.terminate()
+
+
+def _probe() -> None:
+    """Opens a window that is never shown, with the OpenGL that the modeller asks for."""
+    import glfw
+
+    for hint, value in ((glfw.VISIBLE, False), (glfw.CONTEXT_VERSION_MAJOR, 3), (glfw.CONTEXT_VERSION_MINOR, 3)):
+        glfw.window_hint(hint, value)
+    if sys.platform == "darwin":
+        glfw.window_hint(glfw.OPENGL_FORWARD_COMPAT, True)
+    glfw.window_hint(glfw.OPENGL_PROFILE, glfw.OPENGL_CORE_PROFILE)
+    window = glfw.create_window(16, 16, "hqmodel", None, None)
+    if not window:
+        raise NoDisplay(
+            "hqmodel: the display has no OpenGL 3.3: install the graphics driver, "
+            f"or Mesa (libgl1-mesa-dri) for the software one; {HEADLESS}"
+        )
+    glfw.destroy_window(window)
+
+
+def _where() -> str:
+    return "set DISPLAY or WAYLAND_DISPLAY" if sys.platform.startswith("linux") else "no desktop session"

@@ -1,0 +1,97 @@
+"""What a panel can want done: small values that panels return and `Session.apply` carries out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from hqmodel.model import Camera, Scene
+
+from .asks import Departure, Dialog
+
+Location = tuple[str | int, ...]
+
+
+@dataclass(frozen=True)
+class Grab:
+    """A control was pressed: all that is put until it is let go is one undo step."""
+
+    path: Location
+    label: str
+
+
+@dataclass(frozen=True)
+class Put:
+    """A field's new value, shown at once. Part of the grabbed control's step, or a step of its own."""
+
+    path: Location
+    value: object
+    label: str
+
+
+@dataclass(frozen=True)
+class Release:
+    """Whatever was grabbed has been let go."""
+
+
+@dataclass(frozen=True)
+class Reset:
+    """The field back to its default; a click on the same control just before is forgotten."""
+
+    path: Location
+    label: str
+
+
+@dataclass(frozen=True)
+class Edit:
+    """A named change of the whole scene, one undo step."""
+
+    label: str
+    change: Callable[[Scene], Scene]
+
+
+@dataclass(frozen=True)
+class Select:
+    """A shape, or one strip of it; `add` keeps what was selected. No shape: nothing selected."""
+
+    shape: int | None
+    strip: int | None = None
+    add: bool = False
+
+
+@dataclass(frozen=True)
+class Look:
+    """The viewport's camera moved."""
+
+    camera: Camera
+
+
+@dataclass(frozen=True)
+class Do:
+    """An action of the table, by its id."""
+
+    action: str
+
+
+@dataclass(frozen=True)
+class Answer:
+    """The foremost dialog's answer: None for cancelled, else what that dialog says."""
+
+    value: object = None
+
+
+@dataclass(frozen=True)
+class Ask:
+    """A dialog in front of all others."""
+
+    dialog: Dialog
+
+
+@dataclass(frozen=True)
+class Adjust:
+    """The foremost dialog with something in it changed; it stays open."""
+
+    dialog: Dialog
+
+
+Intent = Grab | Put | Release | Reset | Edit | Select | Look | Do | Ask | Answer | Adjust | Departure

@@ -1,0 +1,74 @@
+"""Where the panels are docked at first, and which of them are shown."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+
+from imgui_bundle import hello_imgui, imgui
+
+from .session import Session
+
+# Panel: the space it is docked in. Each space is split off another one: side, share.
+_PLACES = {
+    "Viewport": "MainDockSpace",
+    "Outliner": "LeftSpace",
+    "Presets": "LeftLowerSpace",
+    "Properties": "RightSpace",
+    "Scene": "RightSpace",
+    "Slice": "BottomSpace",
+}
+_SPLITS = (
+    ("MainDockSpace", "BottomSpace", imgui.Dir.down, 0.055),
+    ("MainDockSpace", "LeftSpace", imgui.Dir.left, 0.2),
+    ("MainDockSpace", "RightSpace", imgui.Dir.right, 0.34),
+    ("LeftSpace", "LeftLowerSpace", imgui.Dir.down, 0.55),
+)
+_PLAIN = imgui.internal.DockNodeFlagsPrivate_.no_window_menu_button | imgui.internal.DockNodeFlagsPrivate_.no_close_button
+_BARE = imgui.internal.DockNodeFlagsPrivate_.no_tab_bar
+# Panels without a tab or a cross.
+_FIXED = ("Viewport", "Slice")
+
+
+def docking(panels: Mapping[str, Callable[[], None]]) -> hello_imgui.DockingParams:
+    """The default layout; what the user makes of it is kept by hello_imgui."""
+    splits = [hello_imgui.DockingSplit(*split, _PLAIN) for split in _SPLITS]
+    params = hello_imgui.DockingParams(splits, [_window(name, draw) for name, draw in panels.items()])
+    params.main_dock_space_node_flags |= _PLAIN
+    return params
+
+
+def _window(name: str, draw: Callable[[], None]) -> hello_imgui.DockableWindow:
+    if name not in _FIXED:
+        return hello_imgui.DockableWindow(name, _PLACES[name], draw)
+    window = hello_imgui.DockableWindow(name, _PLACES[name], partial(_bare, name, draw), can_be_closed_=False)
+    window.call_begin_end = False
+    return window
+
+
+def _bare(name: str, draw: Callable[[], None]) -> None:
+    """A window that is all content: no tab, and for the viewport no margin."""
+    kind = imgui.WindowClass()
+    kind.dock_node_flags_override_set = _BARE
+    imgui.set_next_window_class(kind)
+    if name == "Viewport":
+        imgui.push_style_var(imgui.StyleVar_.window_padding, (0.0, 0.0))
+    shown, _ = imgui.begin(name, None, imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse)
+    if name == "Viewport":
+        imgui.pop_style_var()
+    if shown:
+        draw()
+    imgui.end()
+
+
+def sync(params: hello_imgui.RunnerParams, session: Session) -> None:
+    """Panels that were closed by their own cross are hidden for the session too, and the other way round."""
+    for window in params.docking_params.dockable_windows:
+        shown = window.label not in session.hidden_panels
+        if session.shown_panels.get(window.label, window.is_visible) and not window.is_visible:
+            session.hidden_panels.add(window.label)
+            shown = False
+        window.is_visible = shown
+        session.shown_panels[window.label] = shown
+    if session.layout_wanted:
+        params.docking_params.layout_reset, session.layout_wanted = True, False

@@ -1,0 +1,35 @@
+"""What is selected: shapes, in the order they were picked, or one strip of the last of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hqmodel.model import Scene
+
+
+@dataclass(frozen=True)
+class Selection:
+    """Indices into the scene. The last shape is the active one, whose properties are shown."""
+
+    shapes: tuple[int, ...] = ()
+    strip: int | None = None
+
+    @property
+    def active(self) -> int | None:
+        return self.shapes[-1] if self.shapes else None
+
+    def picked(self, shape: int | None, strip: int | None = None, add: bool = False) -> Selection:
+        """After a click on this; with `add` on the same shape again, that one is let go."""
+        if shape is None:
+            return self if add else Selection()
+        if not add:
+            return Selection((shape,), strip)
+        others = tuple(index for index in self.shapes if index != shape)
+        return Selection(others) if shape == self.active else Selection((*others, shape), strip)
+
+    def within(self, scene: Scene) -> Selection:
+        """What is left of it in a scene that may have fewer shapes or strips."""
+        shapes = tuple(index for index in self.shapes if index < len(scene.shapes))
+        if not shapes or shapes[-1] != self.active or self.strip is None:
+            return Selection(shapes)
+        return Selection(shapes, self.strip if self.strip < len(scene.shapes[shapes[-1]].strips) else None)

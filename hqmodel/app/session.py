@@ -1,0 +1,274 @@
+"""All that is going on in the window, without the window: what is open, selected, asked, under way, and how intents change it.
+
+Panels read it and return intents; `Session.apply` is the one place where they are carried out, edits through the history.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+from hqmodel import edit, files
+from hqmodel.field import Region, region
+from hqmodel.model import Scene
+
+from . import actions, answers
+from .asks import ChooseFile, Departure, Dialog, ExportSettings, New, Open, Problem, Quit, Unsaved
+from .document import Document
+from .export import ExportJob
+from .intents import Adjust, Answer, Ask, Do, Edit, Grab, Intent, Location, Look, Put, Release, Reset, Select
+from .selection import Selection
+from .view import View, restored
+
+
+class Session:
+    """One document and what surrounds it. `dialogs` is a stack, the last one in front; `finished` closes the window.
+
+    `wake` asks for a frame and may be called from any thread; `size` is the viewport's, in pixels, as the window last drew it.
+    """
+
+    document: Document
+    selection: Selection
+    view: View
+    _region: tuple[Scene, Region]
+
+    def __init__(self, settings: files.Settings, wake: Callable[[], None] = lambda: None) -> None:
+        self.settings = settings
+        self.wake = wake
+        self.size = (800, 600)
+        self.dialogs: list[Dialog] = []
+        self.export: ExportJob | None = None
+        self.hidden_panels: set[str] = set()
+        self.shown_panels: dict[str, bool] = {}
+        self.layout_wanted = False
+        self.finished = False
+        self.message = ""
+        self.failed = False
+        self._after_saving: Departure | None = None
+        self._held: Location = ()
+        self._clicked: tuple[Location, Scene] | None = None
+        self._show(Document())
+
+    @property
+    def scene(self) -> Scene:
+        return self.document.scene
+
+    @property
+    def history(self) -> edit.History:
+        return self.document.history
+
+    @property
+    def theme(self) -> str:
+        chosen = self.settings.preferences.get("theme")
+        return chosen if chosen in actions.THEMES else actions.THEMES[0]
+
+    @property
+    def region(self) -> Region:
+        """Where the body is, for the scene as it stands."""
+        if self._region[0] is not self.scene:
+            self._region = self.scene, region(self.scene)
+        return self._region[1]
+
+    def apply(self, intents: Iterable[Intent]) -> None:
+        """Carry out what panels want done, one after the other."""
+        for intent in intents:
+            self._apply(intent)
+        self.selection = self.selection.within(self.scene)
+
+    def _apply(self, intent: Intent) -> None:
+        match intent:
+            case Grab(path, label):
+                self.release()
+                self.history.begin(label)
+                self._held = path
+            case Put():
+                self._change(intent.label, lambda scene: edit.put(scene, intent.path, intent.value))
+            case Release():
+                self.release()
+            case Reset():
+                self._reset(intent)
+            case Edit(label, change):
+                self.release()
+                self._change(label, change)
+            case Select(shape, strip, add):
+                self.selection = self.selection.picked(shape, strip, add)
+            case Look(camera):
+                self.view = self.view.moved(camera)
+            case Do(action):
+                actions.perform(self, action)
+            case Ask(dialog):
+                self.dialogs.append(dialog)
+            case Adjust(dialog):
+                self.dialogs[-1] = dialog
+            case Answer(value):
+                answers.take(self, self.dialogs.pop(), value)
+            case Open() | New() | Quit():
+                self.leave(intent)
+
+    # What is said
+
+    def say(self, message: str) -> None:
+        """A line for the status bar."""
+        self.message, self.failed = message, False
+
+    def complain(self, message: str) -> None:
+        """A line for the status bar about what could not be done."""
+        self.message, self.failed = message, True
+
+    def tell(self, title: str, lines: Iterable[str]) -> None:
+        """A dialog about what went wrong."""
+        self.dialogs.append(Problem(title, tuple(lines)))
+
+    # Edits
+
+    def release(self) -> None:
+        """The control that was held is let go: its drag becomes one step."""
+        if self.history.dragging:
+            label, steps = self.history.undo_label, len(self.history.labels)
+            self.history.commit()
+            changed = len(self.history.labels) > steps
+            self._clicked = (self._held, self.scene) if changed else None
+            if changed:
+                self.say(label)
+
+    def undo(self) -> None:
+        if self.history.can_undo:
+            label = self.history.undo_label
+            self.history.undo()
+            self.say(f"Undone: {label}")
+
+    def redo(self) -> None:
+        if self.history.can_redo:
+            label = self.history.redo_label
+            self.history.redo()
+            self.say(f"Done again: {label}")
+
+    def _change(self, label: str, change: Callable[[Scene], Scene]) -> None:
+        try:
+            scene = change(self.scene)
+        except edit.EditError as error:
+            self.complain(str(error))
+            return
+        if self.history.dragging:
+            self.history.preview(scene)
+            self.say("")
+        else:
+            self.history.apply(scene, label)
+            self.say(label)
+
+    def _reset(self, intent: Reset) -> None:
+        """The first click of a double click has moved the slider: that step goes."""
+        self.history.cancel()
+        if self._clicked is not None and self._clicked[0] == intent.path and self._clicked[1] is self.scene:
+            self.history.undo()
+        self._change(intent.label, lambda scene: edit.reset(scene, intent.path))
+
+    # Files
+
+    def leave(self, departure: Departure) -> None:
+        """Go to another preset, or out; ask first where work would be lost."""
+        self.release()
+        if self.history.dirty:
+            self.dialogs.append(Unsaved(self.document.name, departure))
+        else:
+            self.depart(departure)
+
+    def depart(self, departure: Departure) -> None:
+        """Go without asking. A preset that cannot be read is told of, and everything stays as it was."""
+        match departure:
+            case New():
+                self._show(Document())
+                self.say("New")
+            case Open(path):
+                self._open(path)
+            case Quit():
+                if self.export is not None:
+                    self.export.cancel()
+                    self.export.wait()
+                self.finished = True
+
+    def save(self, path: Path | None, then: Departure | None = None) -> None:
+        """Save to this file, or ask for one where there is none yet, and then go on to somewhere else."""
+        self._after_saving = then
+        if path is None:
+            self.dialogs.append(ChooseFile("save", self.folder, self.document.file_name))
+            return
+        try:
+            self.document.save(path, self.view.stored(self.scene.view))
+        except (OSError, files.PresetError) as error:
+            self.tell("Not saved", _lines(path, error))
+            return
+        self.keep(self.settings.opened(path))
+        self.say(f"Saved {path.name}")
+        if then is not None:
+            self.depart(then)
+
+    def save_chosen(self, path: Path | None) -> None:
+        """The answer to where to save; without one, whatever was to come after saving is off too."""
+        if path is not None:
+            self.save(path, self._after_saving)
+        self._after_saving = None
+
+    @property
+    def folder(self) -> Path:
+        """Where file dialogs begin."""
+        recent = [self.document.path, *map(Path, self.settings.recent)]
+        return next((path.parent for path in recent if path is not None and path.parent.is_dir()), Path.home())
+
+    def keep(self, settings: files.Settings) -> None:
+        """Remember these from now on, beyond the window's end where the system lets us."""
+        self.settings = settings
+        settings.write()
+
+    def _open(self, path: Path) -> None:
+        try:
+            document = Document.opened(path)
+        except (OSError, files.PresetError) as error:
+            self.tell("Not opened", _lines(path, error))
+            self.keep(self.settings.forgetting(path))
+            return
+        self._show(document)
+        if document.path is not None:
+            self.keep(self.settings.opened(document.path))
+        self.say(f"Opened {document.name}")
+
+    def _show(self, document: Document) -> None:
+        """From now on this is the document, seen as it was saved or else from where all of it is seen."""
+        self.document = document
+        self._region = document.scene, region(document.scene)
+        self.selection = Selection((0,)).within(document.scene)
+        view = restored(document.scene.view)
+        self.view = view or View()
+        if view is None:
+            self.frame(self.region)
+
+    # Views and exports
+
+    def frame(self, box: Region) -> None:
+        """Look at all of this box."""
+        aspect = self.size[0] / max(self.size[1], 1)
+        self.view = self.view.moved(self.view.camera.framing(box.low, box.high, aspect))
+
+    def start_export(self, settings: ExportSettings) -> None:
+        """Begin an export in the background."""
+        self.release()
+        self.export = ExportJob(self.scene, settings, self.wake)
+        self.say(f"Exporting {settings.path.name}")
+
+    def poll(self) -> None:
+        """Once a frame: tell how an export ended."""
+        job = self.export
+        if job is None or job.running:
+            return
+        self.export = None
+        if job.outcome is None:
+            self.say("Export cancelled; nothing was written")
+        else:
+            self.dialogs.append(job.outcome)
+            self.say("Export failed" if isinstance(job.outcome, Problem) else f"Exported {job.settings.path.name}")
+
+
+def _lines(path: Path, error: OSError | files.PresetError) -> list[str]:
+    if isinstance(error, files.PresetError):
+        return str(error).splitlines()
+    return [f"{path}: {error.strerror or error}"]

@@ -1,0 +1,202 @@
+"""The window: hello_imgui's docked panels around one session, and what it owes the system."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
+from pathlib import Path
+
+import moderngl
+from imgui_bundle import hello_imgui, imgui
+
+from hqmodel import files
+from hqmodel.files import settings_folder
+
+from . import layout, native, theme
+from .asks import ChooseFile, Open, Quit
+from .canvas import Canvas
+from .dialogs import front
+from .form import Memory
+from .guard import Guard, rescued
+from .intents import Intent, Release
+from .panels import menus, outliner, presets, properties, scene, slice_bar, status, viewport
+from .session import Session
+from .thumbnails import Thumbnails
+
+# Idle, the window draws one frame in so many seconds; whatever happens wakes it at once.
+IDLE_SECONDS = 10.0
+# It goes on drawing for so long after the last event, for tooltips to appear.
+AWAKE_SECONDS = 0.7
+SIZE = 1280, 800
+
+
+class Window:
+    """Draws a session until it is finished. `params` is what hello_imgui runs."""
+
+    def __init__(self, session: Session, native_dialogs: bool = True) -> None:
+        self.session = session
+        session.wake = hello_imgui.request_refresh
+        self.guard = Guard(session)
+        self._memory = Memory()
+        self._tree = outliner.Tree()
+        self._shelf = presets.Shelf(files.builtin())
+        self._hand = viewport.Hand()
+        self._chooser = native.NativeChooser() if native_dialogs and native.available() else None
+        self._dropped: list[Path] = []
+        self._title = ""
+        self._themed: tuple[str, float] | None = None
+        self.params = self._parameters()
+
+    def run(self) -> None:
+        """Until it is closed. Should drawing itself fail, what is not saved is kept before that goes on."""
+        try:
+            hello_imgui.run(self.params)
+        except BaseException:
+            kept = rescued(self.session.scene) if self.session.history.dirty else None
+            if kept is not None:
+                print(f"hqmodel: what was not saved is in {kept}")
+            raise
+
+    # What hello_imgui is told
+
+    def _parameters(self) -> hello_imgui.RunnerParams:
+        params = hello_imgui.RunnerParams()
+        params.app_window_params.window_title = "hqmodel"
+        params.app_window_params.window_geometry.size = SIZE
+        params.app_window_params.restore_previous_geometry = True
+        params.ini_folder_type = hello_imgui.IniFolderType.absolute_path
+        params.ini_filename = str(_ini())
+        params.ini_filename_use_app_window_title = False
+        params.fps_idling.fps_idle = 1 / IDLE_SECONDS
+        params.fps_idling.time_active_after_last_event = AWAKE_SECONDS
+        inner = params.imgui_window_params
+        inner.default_imgui_window_type = hello_imgui.DefaultImGuiWindowType.provide_full_screen_dock_space
+        inner.show_menu_bar, inner.show_menu_app, inner.show_menu_view = True, False, False
+        inner.show_status_bar, inner.show_status_fps, inner.remember_theme = True, False, False
+        self._callbacks(params.callbacks)
+        params.docking_params = layout.docking(self._panels())
+        return params
+
+    def _callbacks(self, callbacks: hello_imgui.RunnerCallbacks) -> None:
+        callbacks.default_icon_font = hello_imgui.DefaultIconFont.font_awesome6
+        callbacks.post_init = self._begin
+        callbacks.pre_new_frame = self._before
+        callbacks.show_menus = self._guarded("Menu", lambda: menus.draw(self.session))
+        callbacks.show_status = self._guarded("Status", lambda: status.draw(self.session))
+        callbacks.show_gui = self._guarded("Shortcuts", self._keys)
+        callbacks.post_render_dockable_windows = self._after
+        callbacks.confirm_exit = self._may_exit
+
+    def _panels(self) -> dict[str, Callable[[], None]]:
+        session, memory = self.session, self._memory
+        draws: dict[str, Callable[[], Iterable[Intent]]] = {
+            "Outliner": lambda: outliner.draw(session, self._tree),
+            "Presets": lambda: presets.draw(session, self._shelf, self._thumbnails.texture),
+            "Viewport": lambda: viewport.draw(session, self._hand, self._picture),
+            "Properties": lambda: properties.draw(session, memory),
+            "Scene": lambda: scene.draw(session, memory),
+            "Slice": lambda: slice_bar.draw(session, memory),
+        }
+        return {name: self._guarded(name, draw) for name, draw in draws.items()}
+
+    def _guarded(self, name: str, draw: Callable[[], Iterable[Intent]]) -> Callable[[], None]:
+        return partial(self.guard.run, name, draw)
+
+    # What happens in a frame
+
+    def _begin(self) -> None:
+        """Once, when there is a window with OpenGL."""
+        import glfw
+        from imgui_bundle.glfw_utils import glfw_window_hello_imgui
+
+        ctx = moderngl.create_context()
+        self._canvas = Canvas(ctx)
+        self._thumbnails = Thumbnails(ctx)
+        self.window = glfw_window_hello_imgui()
+        glfw.set_drop_callback(self.window, self.dropped)  # type: ignore[arg-type]  # its stub has the C signature
+
+    def dropped(self, _: object, paths: Sequence[str]) -> None:
+        """Files were dropped on the window; glfw calls this. The first of them opens, in the next frame."""
+        self._dropped = [Path(path) for path in paths]
+        hello_imgui.request_refresh()
+
+    def _before(self) -> None:
+        """Ahead of each frame: what came from outside, the theme, the title, the panels shown, and whether to close."""
+        session = self.session
+        session.poll()
+        dropped, self._dropped = self._dropped, []
+        if dropped:
+            session.apply([Open(dropped[0])])
+        self._restyle()
+        self._retitle()
+        layout.sync(self.params, session)
+        if session.finished:
+            self.params.app_shall_exit = True
+
+    def _keys(self) -> list[Intent]:
+        return menus.shortcuts(self.session)
+
+    def _after(self) -> None:
+        """Behind all panels: dialogs, the end of drags, and whether another frame is needed."""
+        self.guard.run("Dialog", self._dialog)
+        if self.session.history.dragging and not imgui.is_any_item_active():
+            self.session.apply([Release()])
+        moving = self._moving()
+        if not moving and not self._canvas.unfinished and self._thumbnails.waiting:
+            self.guard.run("Thumbnails", self._thumbnail)
+        if moving or self._canvas.unfinished or self._thumbnails.waiting or self.session.export or self._choosing:
+            hello_imgui.request_refresh()
+
+    def _dialog(self) -> Iterable[Intent]:
+        if self._choosing and self._chooser is not None:
+            asked = self.session.dialogs[-1]
+            assert isinstance(asked, ChooseFile)
+            return self._chooser.poll(asked)
+        return front.draw(self.session)
+
+    @property
+    def _choosing(self) -> bool:
+        """Whether one of the system's own dialogs is open."""
+        dialogs = self.session.dialogs
+        return self._chooser is not None and bool(dialogs) and isinstance(dialogs[-1], ChooseFile)
+
+    def _moving(self) -> bool:
+        return self.session.history.dragging or self._hand.button is not None
+
+    def _picture(self, size: tuple[int, int]) -> int:
+        return self._canvas.draw(self.session.scene, self.session.view, size, self._moving())
+
+    def _thumbnail(self) -> Iterable[Intent]:
+        self._thumbnails.work()
+        return ()
+
+    def _may_exit(self) -> bool:
+        """The close button was pressed: ask if need be, and close then."""
+        if not self.session.finished:
+            self.session.apply([Quit()])
+            hello_imgui.request_refresh()
+        return self.session.finished
+
+    def _restyle(self) -> None:
+        wanted = self.session.theme, hello_imgui.dpi_window_size_factor()
+        if wanted != self._themed:
+            theme.apply(*wanted)
+            self._themed = wanted
+
+    def _retitle(self) -> None:
+        import glfw
+
+        title = self.session.document.title
+        if title != self._title:
+            glfw.set_window_title(self.window, title)
+            self._title = title
+
+
+def _ini() -> Path:
+    """Where hello_imgui keeps the layout; created here, it would not create the folder above its own."""
+    folder = settings_folder()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError:  # a read-only home: the layout is not kept, that is all
+        return folder / "window.ini"
+    return folder / "window.ini"
