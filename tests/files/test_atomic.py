@@ -1,0 +1,153 @@
+"""A file is there whole or not at all, whatever happens, and keeps what it had."""
+
+from __future__ import annotations
+
+import errno
+import os
+import random
+import signal
+import stat
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from hqmodel.files import atomic
+
+
+def left(folder: Path) -> set[str]:
+    return {path.name for path in folder.iterdir()}
+
+
+def test_the_file_appears_at_the_end(tmp_path: Path) -> None:
+    with atomic(tmp_path / "a") as stream:
+        stream.write(b"new")
+        assert not (tmp_path / "a").exists()
+    assert (tmp_path / "a").read_bytes() == b"new"
+    assert left(tmp_path) == {"a"}
+
+
+@pytest.mark.parametrize("error", [ValueError, KeyboardInterrupt, SystemExit, OSError])
+def test_nothing_is_left_of_a_failure(tmp_path: Path, error: type[BaseException]) -> None:
+    (tmp_path / "old").write_bytes(b"old")
+    for name in ("old", "new"):
+        with pytest.raises(error), atomic(tmp_path / name) as stream:
+            stream.write(b"half")
+            raise error
+    assert left(tmp_path) == {"old"}
+    assert (tmp_path / "old").read_bytes() == b"old"
+
+
+def test_permissions_stay(tmp_path: Path) -> None:
+    path = tmp_path / "a"
+    path.write_bytes(b"old")
+    path.chmod(0o640)
+    with atomic(path) as stream:
+        stream.write(b"new")
+    assert stat.S_IMODE(path.stat().st_mode) == 0o640
+
+
+def test_a_new_file_has_the_permissions_of_any_new_file(tmp_path: Path) -> None:
+    (tmp_path / "any").write_bytes(b"")
+    with atomic(tmp_path / "a") as stream:
+        stream.write(b"new")
+    assert (tmp_path / "a").stat().st_mode == (tmp_path / "any").stat().st_mode
+
+
+def test_a_link_is_followed_and_stays(tmp_path: Path) -> None:
+    (tmp_path / "deep").mkdir()
+    (tmp_path / "deep" / "real").write_bytes(b"old")
+    (tmp_path / "link").symlink_to(Path("deep") / "real")
+    with atomic(tmp_path / "link") as stream:
+        stream.write(b"new")
+    assert (tmp_path / "link").is_symlink()
+    assert (tmp_path / "deep" / "real").read_bytes() == b"new"
+
+
+def test_a_link_to_nothing_yet_makes_its_target(tmp_path: Path) -> None:
+    (tmp_path / "link").symlink_to("real")
+    with atomic(tmp_path / "link") as stream:
+        stream.write(b"new")
+    assert (tmp_path / "link").is_symlink()
+    assert (tmp_path / "real").read_bytes() == b"new"
+
+
+def test_a_device_stays_a_device() -> None:
+    with atomic(os.devnull) as stream:
+        stream.write(b"new")
+    assert stat.S_ISCHR(Path(os.devnull).stat().st_mode)
+
+
+def test_a_full_disk_is_told() -> None:
+    with pytest.raises(OSError) as caught, atomic("/dev/full") as stream:
+        stream.write(b"new")
+        stream.flush()
+    assert caught.value.errno == errno.ENOSPC
+
+
+def test_folders_and_missing_folders_are_told_by_the_name_that_was_asked_for(tmp_path: Path) -> None:
+    with pytest.raises(IsADirectoryError) as folder, atomic(tmp_path):
+        pass
+    assert folder.value.filename == str(tmp_path)
+    with pytest.raises(FileNotFoundError) as missing, atomic(tmp_path / "no" / "a"):
+        pass
+    assert missing.value.filename == str(tmp_path / "no" / "a")
+
+
+def test_the_bytes_are_on_the_disk_before_the_name_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    done: list[str] = []
+    fsync, replace = os.fsync, Path.replace
+
+    def watched_fsync(descriptor: int) -> None:
+        done.append("folder" if stat.S_ISDIR(os.fstat(descriptor).st_mode) else f"file of {os.fstat(descriptor).st_size}")
+        fsync(descriptor)
+
+    def watched_replace(self: Path, target: Path) -> Path:
+        done.append("name")
+        return replace(self, target)
+
+    monkeypatch.setattr(os, "fsync", watched_fsync)
+    monkeypatch.setattr(Path, "replace", watched_replace)
+    with atomic(tmp_path / "a") as stream:
+        stream.write(b"12345")
+    assert done == ["file of 5", "name", "folder"]
+
+
+SAVER = """
+import sys, time
+from hqmodel.files import load, save
+path = sys.argv[1]
+scenes = [load(path).changed(name=letter * 200_000) for letter in "ab"]
+while True:
+    started = time.perf_counter()
+    for scene in scenes:
+        save(scene, path)
+    print(time.perf_counter() - started, flush=True)
+"""
+
+
+def test_killed_at_any_moment_of_a_save_the_old_file_or_the_new_one_is_there(tmp_path: Path) -> None:
+    path = tmp_path / "a.json"
+    path.write_text('{"format": "hqmodel", "version": 1, "shapes": []}')
+    moments = random.Random(5)
+    seen = set()
+    for _ in range(24):
+        saver = subprocess.Popen([sys.executable, "-c", SAVER, str(path)], stdout=subprocess.PIPE, text=True)
+        assert saver.stdout is not None
+        both = float(saver.stdout.readline())
+        time.sleep(moments.uniform(0.0, both))
+        saver.send_signal(signal.SIGKILL)
+        saver.communicate()
+        assert saver.returncode == -signal.SIGKILL
+        seen.add(_whole_name(path))
+    assert seen == {"a", "b"}
+
+
+def _whole_name(path: Path) -> str:
+    from hqmodel.files import load
+
+    name = load(path).name
+    assert name in ("a" * 200_000, "b" * 200_000)
+    return name[:1]
