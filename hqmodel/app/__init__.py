@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+
+from hqmodel.model import Scene
 
 from .display import NoDisplay
 
 __all__ = ["NoDisplay", "run"]
 
 
-def run(path: Path | None = None) -> None:
-    """Open the window, with a preset if there is one; returns when it is closed.
+def run(path: Path | None = None, change: Callable[[Scene], Scene] | None = None) -> None:
+    """Open the window, with a preset if there is one and then a first edit to it; returns when it is closed.
 
     Raises NoDisplay, one sentence, where no window can be opened. A preset that can't be read is told of in the window.
     """
@@ -18,6 +21,7 @@ def run(path: Path | None = None) -> None:
 
     from .asks import Open
     from .display import require
+    from .intents import Edit
     from .session import Session
 
     require()
@@ -26,4 +30,6 @@ def run(path: Path | None = None) -> None:
     session = Session(Settings.read())
     if path is not None:
         session.apply([Open(path)])
+    if change is not None:
+        session.apply([Edit("Command line", change)])
     Window(session).run()

@@ -2,32 +2,30 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from hqmodel.edit import new_scene
 from hqmodel.files import find, load
 
 from .faults import MACHINE, Fault
+from .options import Set, Slice, adjusted
 
 Optional = Annotated[str | None, typer.Argument(metavar="[PRESET]", help="A preset file, or the name of a built-in preset.")]
 
-HEADLESS = "hqmodel export, render, sample, raycast, check and presets work without one"
 
+def edit(preset: Optional = None, slice_t: Slice = None, settings: Set = None) -> None:
+    """Open the modeller, as hqmodel without a command does.
 
-def edit(preset: Optional = None) -> None:
-    """Open the modeller, as hqmodel without a command does."""
-    path = _readable(preset) if preset is not None else None
-    from hqmodel import app  # late: OpenGL and the window come with it
+    What --slice and --set change is the first step that undo takes back.
+    """
+    scene = load(preset) if preset is not None else new_scene()
+    changes = adjusted(scene, slice_t, settings) != scene
+    from hqmodel import app  # late: a preset at fault is told before any window opens
 
+    path = find(preset) if preset is not None else None
     try:
-        app.run(path)
+        app.run(path, (lambda opened: adjusted(opened, slice_t, settings)) if changes else None)
     except app.NoDisplay as error:
-        raise Fault(f"{error}; {HEADLESS}", MACHINE) from None
-
-
-def _readable(preset: str) -> Path:
-    """The preset's file; PresetError before any window opens when it can't be read."""
-    load(preset)
-    return find(preset)
+        raise Fault(str(error), MACHINE) from None

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 from enum import StrEnum
+from math import isfinite
 from pathlib import Path
 from time import perf_counter
 from typing import Annotated, Any
 
 import typer
 
-from .faults import INPUT, Fault
+from .faults import INPUT, USAGE, Fault
 from .options import Json, Preset, Quiet, Set, Slice, scene_of
 from .outputs import checked, tell, writing
 from .progress import progress
@@ -58,22 +59,24 @@ def export(
 ) -> None:
     """Write the body as a triangle mesh.
 
-    The ending says the format: .obj, .ply, .stl or .glb. Several -o write several files from one mesh.
+    The ending says the format: .obj, .ply, .stl, .glb or .3mf. Several -o write several files from one mesh.
     """
     started = perf_counter()
+    if size is not None and not (isfinite(size) and size > 0):
+        raise Fault(f"--size: expected a number above 0, got {size}", USAGE)
     scene = scene_of(preset, slice_t, settings)
     from hqmodel import mesh  # late: a preset at fault is told at once
 
     checked(output, mesh.FORMATS, [preset])
     try:
         with progress(quiet) as report:
-            body = mesh.polygonize(scene, resolution, report)
+            body = mesh.sized(mesh.polygonize(scene, resolution, report), size)
         result = mesh.report(body)
         shaded = replace(body, colors=body.colors if colors else None, normals=body.normals if normals else None)
         with writing(output) as streams:
             for path, stream in zip(output, streams, strict=True):
                 suffix = path.suffix.lower()
-                mesh.write(mesh.fitted(shaded, suffix, unit=unit, size=size, up=up), stream, suffix, scene.name)
+                mesh.write(mesh.fitted(shaded, suffix, unit=unit, up=up), stream, suffix, scene.name)
     except mesh.MeshError as error:
         raise Fault(f"{preset}: {error}", INPUT) from None
     result |= {"resolution": resolution, "seconds": perf_counter() - started, "files": [str(path) for path in output]}

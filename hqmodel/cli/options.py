@@ -27,12 +27,16 @@ Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on std
 Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing but errors.")]
 
 
-def scene_of(preset: str, slice_t: float | None = None, settings: list[str] | None = None) -> Scene:
-    """The preset's scene with --slice and then each --set applied, in order.
+def scene_of(preset: str, slice_t: float | None, settings: list[str] | None) -> Scene:
+    """The preset's scene as the options want it.
 
     Raises PresetError, and Fault when the options are at fault.
     """
-    scene = load(preset)
+    return adjusted(load(preset), slice_t, settings)
+
+
+def adjusted(scene: Scene, slice_t: float | None, settings: list[str] | None) -> Scene:
+    """The scene with --slice and then each --set applied, in order; Fault when they are at fault."""
     if slice_t is not None:
         scene = _put(scene, "--slice", "slice", slice_t)
     for setting in settings or ():
