@@ -22,7 +22,7 @@ def require() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", glfw.GLFWError)  # glfw reports as warnings what is raised here
         if not glfw.init():
-            raise NoDisplay(f"hqmodel: no display to open a window on ({_where()}); {HEADLESS}")
+            raise NoDisplay(f"no display to open a window on ({_where()}); {HEADLESS}")
         try:
             _probe()
         finally:
@@ -41,7 +41,7 @@ def _probe() -> None:
     window = glfw.create_window(16, 16, "hqmodel", None, None)
     if not window:
         raise NoDisplay(
-            "hqmodel: the display has no OpenGL 3.3: install the graphics driver, "
+            "the display has no OpenGL 3.3: install the graphics driver, "
             f"or Mesa (libgl1-mesa-dri) for the software one; {HEADLESS}"
         )
     glfw.destroy_window(window)

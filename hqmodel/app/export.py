@@ -56,8 +56,10 @@ class ExportJob:
             self.outcome = self._work()
         except _Cancelled:
             pass  # asked for; an outcome would only be in the way
-        except (MeshError, OSError) as error:
+        except MeshError as error:
             self.outcome = Problem(TITLE, (str(error),))
+        except OSError as error:
+            self.outcome = Problem(TITLE, (f"{self.settings.path}: {error.strerror or error}",))
         except Exception:  # a fault of ours must reach the screen, not die with the thread
             self.outcome = Problem(TITLE, ("This should not have happened; your work is untouched.", *_lines()))
         finally:

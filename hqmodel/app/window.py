@@ -69,6 +69,8 @@ class Window:
         params.ini_filename_use_app_window_title = False
         params.fps_idling.fps_idle = 1 / IDLE_SECONDS
         params.fps_idling.time_active_after_last_event = AWAKE_SECONDS
+        # ImGui smooths its own edges, and the preview its own: multisampling would only make every frame slow.
+        params.renderer_backend_options.open_gl_options.anti_aliasing_samples = 0
         inner = params.imgui_window_params
         inner.default_imgui_window_type = hello_imgui.DefaultImGuiWindowType.provide_full_screen_dock_space
         inner.show_menu_bar, inner.show_menu_app, inner.show_menu_view = True, False, False

@@ -19,19 +19,19 @@ Key = TypeVar("Key", bound=str)
 
 _LABEL, _WIDTH = 8.0, 24.0
 _UNITS: dict[Unit | Literal[""], str] = {
-    "": "Format's own",
+    "": "None: numbers stay as they are",
     "mm": "Millimetres",
     "cm": "Centimetres",
     "m": "Metres",
     "in": "Inches",
 }
-_UPS: dict[Up | Literal[""], str] = {"": "Format's own", "z": "z up", "y": "y up"}
+_UPS: dict[Up | Literal[""], str] = {"z": "z up", "y": "y up"}
 _RESOLUTIONS = 16, 1024
 
 
 def draw(dialog: Dialog) -> list[Intent]:
     """Format and file, how fine, how large, and what goes along."""
-    from hqmodel.mesh import FORMATS
+    from hqmodel.mesh import FORMATS, UP_AXIS
 
     assert isinstance(dialog, ExportAs)
     settings = dialog.settings
@@ -42,7 +42,8 @@ def draw(dialog: Dialog) -> list[Intent]:
     settings, browsing = _file(settings)
     settings = _resolution(settings)
     settings = _size(settings)
-    settings = replace(settings, up=_combo("Up", settings.up or "", _UPS) or None)
+    usual = f"As usual for the format: {UP_AXIS.get(chosen, 'z')} up"
+    settings = replace(settings, up=_combo("Up", settings.up or "", {"": usual, **_UPS}) or None)
     settings = _extras(settings)
     problem = _problem(settings, list(FORMATS))
     if problem:
