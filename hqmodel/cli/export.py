@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from enum import StrEnum
 from math import isfinite
 from pathlib import Path
 from time import perf_counter
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import typer
 
@@ -16,19 +15,8 @@ from .options import Json, Preset, Quiet, Set, Slice, scene_of
 from .outputs import checked, tell, writing
 from .progress import progress
 
-
-class Unit(StrEnum):
-    mm = "mm"
-    cm = "cm"
-    m = "m"
-    inch = "in"
-
-
-class Up(StrEnum):
-    z = "z"
-    y = "y"
-
-
+Unit = Literal["mm", "cm", "m", "in"]
+Up = Literal["z", "y"]
 Output = Annotated[
     list[Path],
     typer.Option(

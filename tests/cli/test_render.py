@@ -1,0 +1,65 @@
+"""render: pictures of the size, view and mode asked for."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PIL import Image
+
+from .conftest import Command, files
+
+
+def picture(name: str) -> NDArray[np.int64]:
+    with Image.open(name) as image:
+        return np.asarray(image.convert("RGB"), dtype=np.int64)
+
+
+def test_the_picture_has_the_size_asked_for_and_the_body_in_its_middle(hqmodel: Command) -> None:
+    ended = hqmodel("render", "ball.json", "-o", "a.png", "--size", "120x80", "--json")
+    assert (ended.status, ended.err) == (0, "")
+    result = json.loads(ended.out)
+    assert (result["width"], result["height"], result["mode"], result["files"]) == (120, 80, "clay", ["a.png"])
+    pixels = picture("a.png")
+    assert pixels.shape == (80, 120, 3)
+    assert np.abs(pixels[40, 60] - pixels[4, 4]).max() > 20
+
+
+def test_views_and_angles_agree(hqmodel: Command) -> None:
+    tilted = ["--set", "shapes[0].transform.scale=[1, 2, 0.5]", "--size", "64x64"]
+    for name, options in {
+        "right.png": ["--view", "right"],
+        "same.png": ["--azimuth", 90, "--elevation", 0],
+        "top.png": ["--view", "top"],
+    }.items():
+        assert hqmodel("render", "ball.json", "-o", name, *tilted, *options).status == 0
+    assert np.array_equal(picture("right.png"), picture("same.png"))
+    assert not np.array_equal(picture("right.png"), picture("top.png"))
+
+
+def test_each_mode_is_another_picture(hqmodel: Command) -> None:
+    modes = ["clay", "normals", "curvature", "strips", "depth"]
+    for mode in modes:
+        assert hqmodel("render", "ball.json", "-o", f"{mode}.png", "--mode", mode, "--size", "48x48").status == 0
+    pictures = {picture(f"{mode}.png").tobytes() for mode in modes}
+    assert len(pictures) == len(modes)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["-o", "a.jpg"], "a.jpg: expected a file name that ends in .png, got .jpg"),
+        (["-o", "a.png", "--size", "640"], "--size: expected WxH in pixels, each from 1 to 8192, got '640'"),
+        (["-o", "a.png", "--size", "0x10"], "--size: expected WxH in pixels, each from 1 to 8192, got '0x10'"),
+        (["-o", "a.png", "--size", "10x9999"], "--size: expected WxH in pixels, each from 1 to 8192, got '10x9999'"),
+        (["-o", "a.png", "--view", "up"], "--view: expected front, right, back, left, top, bottom, iso, got 'up'"),
+        (["-o", "a.png", "--mode", "wax"], "--mode: expected clay, normals, curvature, strips, depth, got 'wax'"),
+        (["-o", "a.png", "--elevation", "91"], "--elevation: expected degrees from -90 to 90, got 91.0"),
+        (["-o", "a.png", "--azimuth", "nan"], "--azimuth: expected degrees from -360 to 360, got nan"),
+    ],
+)
+def test_wrong_options_are_told(hqmodel: Command, arguments: list[str], message: str) -> None:
+    assert hqmodel("render", "ball.json", *arguments) == (2, "", message + "\n")
+    assert files() == {"ball.json"}
