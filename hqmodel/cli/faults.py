@@ -39,12 +39,12 @@ def unwritable(path: object, error: OSError) -> Fault:
     return Fault(f"{path}: expected a file that can be written, got: {error.strerror or error}", status)
 
 
-def guarded(work: Callable[[], object]) -> int:
+def guarded(work: Callable[[], None]) -> int:
     """Do the work; whatever goes wrong is told on stderr, and the exit status says whose fault it was."""
     try:
-        status = work()
+        status = _finished(work)
         sys.stdout.flush()
-        return status if isinstance(status, int) else DONE
+        return status
     except KeyboardInterrupt:
         return _told("interrupted", INTERRUPTED)
     except BrokenPipeError:
@@ -53,6 +53,15 @@ def guarded(work: Callable[[], object]) -> int:
         if os.environ.get(DEBUG):
             raise
         return _told(*_verdict(error))
+
+
+def _finished(work: Callable[[], None]) -> int:
+    """Do the work; it may end early with a status of its own."""
+    try:
+        work()
+    except typer.Exit as end:
+        return end.exit_code
+    return DONE
 
 
 def _verdict(error: Exception) -> tuple[str, int]:

@@ -67,7 +67,13 @@ for _module in (edit, export, render, sample, raycast, check, presets):
 
 def run(arguments: Sequence[str]) -> int:
     """Carry out a command line, told in full on stdout and stderr; the exit status."""
-    return guarded(lambda: app(list(arguments), prog_name="hqmodel", standalone_mode=False))
+    command = typer.main.get_command(app)
+
+    def invoke() -> None:
+        with command.make_context("hqmodel", list(arguments)) as context:
+            command.invoke(context)
+
+    return guarded(invoke)
 
 
 def main() -> None:

@@ -52,12 +52,12 @@ def rows(path: Path, columns: Sequence[str]) -> Iterator[Rows]:
             size = max(1, os.fstat(raw.fileno()).st_size)
             text = io.TextIOWrapper(raw, encoding="utf-8-sig", errors="replace")
             header = _header(path, text.readline(_LONGEST_HEADER), columns)
-            done = 1
+            done, read = 1, 0
             while block := list(islice(text, BLOCK)):
                 filled = [(number, line) for number, line in enumerate(block, done + 1) if not line.isspace()]
-                done += len(block)
+                done, read = done + len(block), read + sum(map(len, block))
                 if filled:
-                    yield Rows(_numbers(path, header, filled), [number for number, _ in filled], min(1.0, raw.tell() / size))
+                    yield Rows(_numbers(path, header, filled), [number for number, _ in filled], min(1.0, read / size))
     except OSError as error:
         raise Fault(f"{path}: expected a file that can be read, got: {error.strerror or error}") from None
 

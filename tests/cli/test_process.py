@@ -42,14 +42,14 @@ def test_the_module_is_the_program(folder: Path) -> None:
 def test_stopped_while_writing_it_leaves_nothing(folder: Path, number: int, status: int, message: str) -> None:
     os.mkfifo("p.csv")
     command = [*PROGRAM, "sample", "ball.json", "p.csv", "-o", "o.csv"]
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, preexec_fn=heed_interrupts)
-    with Path("p.csv").open("w") as points:
-        points.write("x,y,z\n" + "0,0,0\n" * 100_000)
-        points.flush()  # the reader has begun, so the draft of o.csv is there
-        assert len(list(folder.iterdir())) == 3
-        process.send_signal(number)
-        assert process.stderr is not None
-        assert process.stderr.read() == message
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, preexec_fn=heed_interrupts) as process:
+        with Path("p.csv").open("w") as points:
+            points.write("x,y,z\n" + "0,0,0\n" * 100_000)
+            points.flush()  # more than a pipe holds: the reader has begun, so the draft of o.csv is there
+            assert len(list(folder.iterdir())) == 3
+            process.send_signal(number)
+            assert process.stderr is not None
+            assert process.stderr.read() == message
         assert process.wait() == status
     assert {path.name for path in folder.iterdir()} == {"ball.json", "p.csv"}
 
@@ -57,16 +57,15 @@ def test_stopped_while_writing_it_leaves_nothing(folder: Path, number: int, stat
 def test_on_a_terminal_it_shows_progress_and_stops_at_ctrl_c(folder: Path) -> None:
     screen, terminal = pty.openpty()
     command = [*PROGRAM, "export", "ball.json", "-o", "a.obj", "--resolution", "2000"]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=terminal, preexec_fn=heed_interrupts)
-    os.close(terminal)
-    shown = b""
-    while b"Meshing" not in shown:
-        shown += os.read(screen, 1000)
-    process.send_signal(signal.SIGINT)
-    reader = threading.Thread(target=_drain, args=(screen,), daemon=True)
-    reader.start()
-    assert process.communicate()[0] == b""
-    assert process.returncode == 130
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=terminal, preexec_fn=heed_interrupts) as process:
+        os.close(terminal)
+        shown = b""
+        while b"Meshing" not in shown:
+            shown += os.read(screen, 1000)
+        process.send_signal(signal.SIGINT)
+        threading.Thread(target=_drain, args=(screen,), daemon=True).start()
+        assert process.communicate()[0] == b""
+        assert process.returncode == 130
     assert {path.name for path in folder.iterdir()} == {"ball.json"}
 
 
@@ -101,5 +100,5 @@ def test_a_full_disk_is_the_machines_fault(folder: Path) -> None:
     told = "/dev/full: expected a file that can be written, got: No space left on device\n"
     assert (full.returncode, full.stdout, full.stderr) == (3, "", told)
     with Path("/dev/full").open("w") as stdout:
-        done = subprocess.run([*PROGRAM, "presets"], stdout=stdout, stderr=subprocess.PIPE, text=True, check=False)
+        done = subprocess.run([*PROGRAM, "check", "ball.json"], stdout=stdout, stderr=subprocess.PIPE, text=True, check=False)
     assert (done.returncode, done.stderr) == (3, "output: No space left on device\n")

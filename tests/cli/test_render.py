@@ -29,11 +29,8 @@ def test_the_picture_has_the_size_asked_for_and_the_body_in_its_middle(hqmodel: 
 
 def test_views_and_angles_agree(hqmodel: Command) -> None:
     tilted = ["--set", "shapes[0].transform.scale=[1, 2, 0.5]", "--size", "64x64"]
-    for name, options in {
-        "right.png": ["--view", "right"],
-        "same.png": ["--azimuth", 90, "--elevation", 0],
-        "top.png": ["--view", "top"],
-    }.items():
+    views = {"right.png": ["--view", "right"], "same.png": ["--azimuth", "90", "--elevation", "0"], "top.png": ["--view", "top"]}
+    for name, options in views.items():
         assert hqmodel("render", "ball.json", "-o", name, *tilted, *options).status == 0
     assert np.array_equal(picture("right.png"), picture("same.png"))
     assert not np.array_equal(picture("right.png"), picture("top.png"))
