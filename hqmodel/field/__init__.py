@@ -10,6 +10,7 @@ from .evaluate import (
     near_linear,
     near_linear_slope,
     shaping_strip,
+    term_weights,
     value,
 )
 from .intervals import box_bounds, relevant_terms, segment_bounds
@@ -39,5 +40,6 @@ __all__ = [
     "segment_bounds",
     "shaping_strip",
     "srgb_to_linear",
+    "term_weights",
     "value",
 ]

@@ -16,6 +16,9 @@ def mixed_colors(scene: Scene, terms: Terms, points: ArrayLike) -> Array:
 
     Where a negative shape has cut, the cut takes its colour in the measure in which it holds back the sum.
     """
+    if len({scene.shapes[i].color for i in terms.term_source}) == 1:
+        color = np.array(scene.shapes[terms.term_source[0]].color)
+        return np.broadcast_to(color, np.shape(points)).copy()
     linear = srgb_to_linear(np.array([scene.shapes[i].color for i in terms.term_source], dtype=float).reshape(-1, 3))
     return linear_to_srgb(term_weights(terms, points) @ linear)
 

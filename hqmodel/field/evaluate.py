@@ -36,7 +36,10 @@ def value(terms: Terms, points: ArrayLike) -> Array:
 
 
 def log_ratio(terms: Terms, points: ArrayLike) -> Array:
-    """L = ln P - ln N at points (..., 3), shape (...,): positive inside, zero on the surface; infinite only without terms."""
+    """L = ln P - ln N at points (..., 3), shape (...,): positive inside, zero on the surface.
+
+    Infinite only where the scene has nothing that adds, or nothing to hold against it: neither level nor carving shape.
+    """
     return _by_chunk(terms, points, lambda t, p: log_balance(t, exponents(t, _sums(t, p))))
 
 
@@ -67,6 +70,8 @@ def shaping_strip(terms: Terms, points: ArrayLike) -> Indices:
 
 def term_weights(terms: Terms, points: ArrayLike) -> Array:
     """Each term's share of sum |c_k| exp(beta_k (C_k - H_k)) at points (..., 3): (..., K), adding up to 1."""
+    if not len(terms):
+        return np.zeros((*np.shape(points)[:-1], 0))
     return _by_chunk(terms, points, _term_weights, columns=len(terms))
 
 

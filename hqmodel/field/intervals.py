@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .evaluate import exponents, log_balance
-from .powers import group_powers, strip_functions, term_sums
+from .powers import group_powers, over_runs, strip_functions, term_sums
 from .terms import HUGE, Array, Terms
 
 _EPS = np.finfo(float).eps
@@ -30,22 +30,26 @@ def segment_bounds(terms: Terms, start: ArrayLike, end: ArrayLike) -> tuple[Arra
     return _in_slices(terms, _segment_ranges, np.asarray(start, dtype=float), np.asarray(end, dtype=float))
 
 
-def term_bounds(terms: Terms, h_low: Array, h_high: Array) -> tuple[Array, Array]:
-    """Bounds of every exponent T_k, (K, n) each, from ranges of every h_a, (S, n) each (padded by the caller)."""
-    least = np.where((h_low <= 0) & (h_high >= 0), 0.0, np.minimum(np.abs(h_low), np.abs(h_high)))
-    most = np.maximum(np.abs(h_low), np.abs(h_high))
-    low_sums, high_sums = _sums(terms, least, most), _sums(terms, most, least)
-    with np.errstate(over="ignore"):
-        size = terms.hardness[:, None] * (np.abs(terms.constant)[:, None] + np.maximum(np.abs(low_sums), np.abs(high_sums)))
-        pad = 64 * _EPS * np.minimum(size + np.abs(terms.log_coefficient)[:, None] + 1, 1e300)
-    return exponents(terms, high_sums) - pad, exponents(terms, low_sums) + pad
+def term_bounds(terms: Terms, middle: Array, reach: Array) -> tuple[Array, Array]:
+    """Bounds of every exponent T_k, (K, n) each, where h_a lies within `reach` of `middle`, (S, n) each."""
+    size = np.abs(middle)
+    least, most = np.maximum(size - reach, 0.0), size + reach
+    t_low, low_pad = _exponents(terms, most, least)
+    t_high, high_pad = _exponents(terms, least, most)
+    return t_low - low_pad, t_high + high_pad
 
 
-def _sums(terms: Terms, adding: Array, taking: Array) -> Array:
-    """H with positive groups at |h| = adding and negative ones at |h| = taking."""
+def _exponents(terms: Terms, adding: Array, taking: Array) -> tuple[Array, Array]:
+    """T with positive groups at |h| = adding and negative ones at |h| = taking, and how far rounding may have moved it."""
     if terms.hyperbolic:
         adding = np.where((terms.group_sign > 0)[terms.group_of_strip][:, None], adding, taking)
-    return term_sums(terms, group_powers(terms, adding), adding)
+    v = group_powers(terms, adding)
+    sums = term_sums(terms, v, adding)
+    size = over_runs(v, terms.term_start) if terms.hyperbolic else sums
+    with np.errstate(over="ignore"):
+        fixed = terms.hardness * np.abs(terms.constant) + np.abs(terms.log_coefficient) + 1
+        pad = 64 * _EPS * np.minimum(terms.hardness[:, None] * size + fixed[:, None], 1e300)
+    return exponents(terms, sums), pad
 
 
 def _in_slices(terms: Terms, ranges: _Ranges, first: Array, second: Array) -> tuple[Array, Array]:
@@ -69,14 +73,14 @@ def _box_ranges(terms: Terms, low: Array, high: Array) -> tuple[Array, Array]:
     size = np.abs(terms.normal)
     reach = size @ half.T
     reach += 8 * _EPS * (size @ np.abs(centre).T + np.abs(terms.offset)[:, None] + reach)
-    return middle - reach, middle + reach
+    return middle, reach
 
 
 def _segment_ranges(terms: Terms, start: Array, end: Array) -> tuple[Array, Array]:
     first, second = strip_functions(terms, start), strip_functions(terms, end)
     size = np.abs(terms.normal) @ np.clip(np.maximum(np.abs(start), np.abs(end)), 0, HUGE).T
     pad = 8 * _EPS * (size + np.abs(terms.offset)[:, None])
-    return np.minimum(first, second) - pad, np.maximum(first, second) + pad
+    return (first + second) / 2, np.abs(second - first) / 2 + pad
 
 
 def relevant_terms(terms: Terms, low: ArrayLike, high: ArrayLike, negligible: float = 50.0) -> Terms:

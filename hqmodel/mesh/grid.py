@@ -71,10 +71,10 @@ def _axis(low: float, high: float, cell: float, mirrored: bool, cut: bool) -> tu
     if mirrored:
         nodes = _half_axis(max(high, -low), count, cut)
     elif cut:
-        nodes = low + (high - low) * np.arange(count + 1) / count
+        nodes = np.asarray(np.linspace(low, high, count + 1))
     else:
         step = (high - low) / count
-        nodes = low + (np.arange(count + 2) - 0.5) * step
+        nodes = np.asarray(low + (np.arange(count + 2) - 0.5) * step)
     if not cut:
         return _whole_blocks(nodes, np.zeros(len(nodes), dtype=bool), nodes[-1] - nodes[-2])
     before = 0 if mirrored else 1
@@ -85,8 +85,9 @@ def _axis(low: float, high: float, cell: float, mirrored: bool, cut: bool) -> tu
 def _half_axis(high: float, count: int, cut: bool) -> Array:
     """Nodes from 0 outwards: up to the cut, or half a cell beyond the body."""
     half = (count + 1) // 2
-    nodes: Array = high * np.arange(half + 1) / half if cut else np.arange(half + 2) * (high / (half + 0.5))
-    return nodes
+    if cut:
+        return np.asarray(np.linspace(0.0, high, half + 1))
+    return np.asarray(np.arange(half + 2) * (high / (half + 0.5)))
 
 
 def _whole_blocks(nodes: Array, outside: NDArray[np.bool_], step: float) -> tuple[Array, NDArray[np.bool_]]:
