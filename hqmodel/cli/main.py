@@ -83,9 +83,10 @@ def main() -> None:
 
 
 def main_window() -> None:
-    """The entry point of desktops, which open a file with the program by naming it."""
+    """The entry point of desktops, which open a file by naming it: what is wrong with it is told in the window."""
     signal.signal(signal.SIGTERM, _terminated)
-    sys.exit(run(["edit", *sys.argv[1:]]))
+    path = Path(sys.argv[1]) if len(sys.argv) > 1 else None
+    sys.exit(guarded(lambda: edit.window(path)))
 
 
 def _terminated(number: int, _frame: object) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import json
 import re
+import signal
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ import pytest
 
 import hqmodel as package
 from hqmodel import app
+from hqmodel.cli import main_window
 from hqmodel.files import load
 from hqmodel.model import Scene
 
@@ -23,6 +25,7 @@ def opened(monkeypatch: pytest.MonkeyPatch) -> list[tuple[Path | None, Any]]:
     """What the window was asked to open; none opens."""
     calls: list[tuple[Path | None, Any]] = []
     monkeypatch.setattr(app, "run", lambda path, change=None: calls.append((path, change)))
+    monkeypatch.setattr(signal, "signal", lambda *_: None)
     return calls
 
 
@@ -49,6 +52,17 @@ def test_without_a_preset_the_modeller_opens(hqmodel: Command, opened: list[Any]
 def test_with_a_preset_it_opens_that(hqmodel: Command, opened: list[Any], arguments: list[str]) -> None:
     assert hqmodel(*arguments) == Ended(0, "", "")
     assert opened == [(Path("ball.json"), None)]
+
+
+def test_desktops_open_files_without_a_terminal_to_tell_faults_on(
+    hqmodel: Command, opened: list[Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    Path("bad.json").write_text("{")
+    monkeypatch.setattr("sys.argv", ["hqmodel-gui", "bad.json"])
+    with pytest.raises(SystemExit) as caught:
+        main_window()
+    assert caught.value.code == 0
+    assert opened == [(Path("bad.json"), None)]
 
 
 def test_changes_come_as_a_first_edit(hqmodel: Command, opened: list[Any]) -> None:
