@@ -80,10 +80,8 @@ def _on_cpu(scene: Scene) -> Callable[[Array, Array], Array]:
 def _on_gpu(scene: Scene) -> Callable[[Array, Array], Array]:
     from hqmodel import gpu
 
-    def cast(origins: Array, directions: Array) -> Array:
-        try:
-            return np.asarray(gpu.raycast(scene, origins, directions), dtype=np.float64)
-        except gpu.GpuError as error:
-            raise Fault(f"{error}; --cpu needs none", MACHINE) from None
-
-    return cast
+    try:
+        context = gpu.offscreen()
+    except gpu.GpuError as error:
+        raise Fault(f"{error}; --cpu needs none", MACHINE) from None
+    return lambda origins, directions: gpu.raycast(scene, origins, directions, context)

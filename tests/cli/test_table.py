@@ -77,14 +77,17 @@ def test_the_gpu_agrees(hqmodel: Command) -> None:
     assert [float(distances[0]), float(distances[2])] == pytest.approx([4.2, 3 * sqrt(3) - 1], abs=1e-4)
 
 
-@pytest.mark.parametrize("command", [["raycast", "ball.json", "r.csv", "-o", "o.csv"], ["render", "ball.json", "-o", "o.png"]])
+@pytest.mark.parametrize(
+    ("needed", "command"),
+    [("offscreen", ["raycast", "ball.json", "r.csv", "-o", "o.csv"]), ("render", ["render", "ball.json", "-o", "o.png"])],
+)
 def test_a_machine_without_opengl_is_told_what_to_install(
-    hqmodel: Command, monkeypatch: pytest.MonkeyPatch, command: list[str]
+    hqmodel: Command, monkeypatch: pytest.MonkeyPatch, needed: str, command: list[str]
 ) -> None:
     def lacking(*_: object, **__: object) -> None:
         raise gpu.GpuError("OpenGL 3.3 is needed: install libegl1")
 
-    monkeypatch.setattr(gpu, command[0], lacking)
+    monkeypatch.setattr(gpu, needed, lacking)
     Path("r.csv").write_text("ox,oy,oz,dx,dy,dz\n0.6,0,5,0,0,-3\n")
     ended = hqmodel(*command)
     assert (ended.status, ended.out) == (3, "")
