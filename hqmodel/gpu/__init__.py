@@ -1,6 +1,10 @@
 """The scene on the GPU: its layout in GPU memory, the shaders put together, the preview off screen and in the window."""
 
+from .assembly import ShaderError
 from .context import GpuError, offscreen
-from .preview import MODES, Preview
+from .preview import Preview, Seen
+from .render import render
+from .studio import MODES
+from .tables import field_values, raycast
 
-__all__ = ["MODES", "GpuError", "Preview", "offscreen"]
+__all__ = ["MODES", "GpuError", "Preview", "Seen", "ShaderError", "field_values", "offscreen", "raycast", "render"]

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import moderngl
 
 # What macOS offers at most is 4.1; the shaders ask for no more than 3.3.
@@ -10,6 +13,7 @@ _ADVICE = (
     "OpenGL 3.3 is needed and was not found: install the graphics driver, "
     "or Mesa's software renderer (on Debian and Ubuntu: libegl1 and libgl1-mesa-dri)"
 )
+_SOFTWARE = ("llvmpipe", "softpipe", "swrast", "swiftshader", "software", "gdi generic")
 
 
 class GpuError(Exception):
@@ -28,3 +32,20 @@ def offscreen() -> moderngl.Context:
         except Exception as error:  # moderngl's backends raise the bare Exception, ImportError, OSError or ValueError
             reasons.append(" ".join(str(error).split()) or type(error).__name__)
     raise GpuError(f"{_ADVICE} ({'; '.join(reasons)})")
+
+
+def software(ctx: moderngl.Context) -> bool:
+    """Whether the processor does the drawing."""
+    renderer = str(ctx.info["GL_RENDERER"]).lower()
+    return any(name in renderer for name in _SOFTWARE)
+
+
+@contextmanager
+def framebuffer_kept(ctx: moderngl.Context) -> Iterator[None]:
+    """Whatever framebuffer is bound now is bound again afterwards: releasing a bound one would leave later calls in error."""
+    before = ctx.detect_framebuffer()
+    try:
+        yield
+    finally:
+        ctx.enable_only(moderngl.NOTHING)
+        before.use()

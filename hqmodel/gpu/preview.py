@@ -2,55 +2,156 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from time import perf_counter
+from typing import NamedTuple
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from hqmodel.field import Region, region
+from hqmodel.field import Region, Terms, region
 from hqmodel.model import Camera, Scene
 
-MODES = ("clay", "normals", "curvature", "strips", "depth")
+from .context import framebuffer_kept, software
+from .floor import floor_height
+from .memory import SceneMemory
+from .picture import Picture, samples_of
+from .sight import camera_uniforms, depth_range, light_uniforms
+from .studio import MODES, Shot, Studio, tile_side
+
+# Seconds that a draft may take before the next is drawn coarser, or finer.
+_SLOW, _FAST = 0.07, 0.02
+_COARSEST = 4
+
+
+class Seen(NamedTuple):
+    """What lies under a pixel: the world point, its distance from the eye, and the shape and strip that it belongs to."""
+
+    point: tuple[float, float, float]
+    distance: float
+    shape: int | None
+    strip: int | None
 
 
 class Preview:
-    """Draws into `texture` (RGBA, sRGB, opaque, bottom row first); show it with `texture.glo`.
+    """Draws into `texture` (RGBA, sRGB, opaque, bottom row first); show it with `texture.glo`, which changes with the size.
 
     Whatever framebuffer was bound before a call is bound after it.
     """
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self.ctx = ctx
-        self.scene = Scene(shapes=())
-        self.region: Region = region(self.scene)
-        self._resize((16, 16))
+        self._slow = software(ctx)
+        self._memory = SceneMemory(ctx)
+        self._studio: Studio | None = None
+        self._picture = Picture(ctx, (16, 16))
+        self._coarse = 2 if self._slow else 1
+        self._shot: Shot | None = None
+        self._work: Iterator[None] = iter(())
+        self._left = True
+        self.show(Scene(shapes=()))
+
+    @property
+    def texture(self) -> moderngl.Texture:
+        """The picture as it stands."""
+        return self._picture.shown.texture
 
     def show(self, scene: Scene) -> None:
-        """From now on draw this scene; cheap when only numbers changed."""
-        self.scene, self.region = scene, region(scene)
+        """From now on draw this scene."""
+        self._terms = Terms.of(scene)
+        self.scene, self.region = scene, region(scene, self._terms)
+        self._memory.write(scene, self._terms, self.region)
+        self._floor = floor_height(self.ctx, self._memory, self.region)
+        self._shot = None
 
     def draw(self, camera: Camera, size: tuple[int, int], mode: str = "clay", quick: bool = False, budget: float = 0.03) -> bool:
         """Bring the picture of that size (width, height) nearer to finished, for about `budget` seconds.
 
-        True while a further call with the same arguments would refine it. `quick` is for while something is being dragged: no
-        shadows, a coarser picture when the machine is slow. Raises KeyError for a mode that is none of `MODES`.
+        True while a further call with the same arguments, but not `quick`, would refine it. `quick` is for while something is
+        being dragged: a draft, the coarser the slower the machine. Raises ValueError for a mode that is none of `MODES`.
         """
-        before = self.ctx.detect_framebuffer()
-        if size != self.texture.size:
-            self._resize(size)
-        self._target.clear(0.2, 0.3, 0.2, 1.0)
-        before.use()
-        return False
+        started = perf_counter()
+        with framebuffer_kept(self.ctx):
+            shot = self._shot_of(camera, size, mode)
+            if shot != self._shot:
+                self._begin(shot)
+            if not quick:
+                self._refine(started + budget)
+            self._picture.resolve(shot)
+        return self._left
 
     def pixels(self) -> NDArray[np.uint8]:
         """The picture as it stands, (height, width, 4), top row first."""
         width, height = self.texture.size
         return np.frombuffer(self.texture.read(), dtype=np.uint8).reshape(height, width, 4)[::-1]
 
+    def pick(self, camera: Camera, size: tuple[int, int], pixel: tuple[int, int]) -> Seen | None:
+        """What lies under a pixel (from the top left) of a picture of that size; None beside the body."""
+        shot = self._shot_of(camera, size, MODES[0])
+        with framebuffer_kept(self.ctx):
+            seen = self._ready_studio().seen(self._memory, shot, (pixel[0], size[1] - 1 - pixel[1]))
+        x, y, z, distance, _, _, _, kind, _, _, _, row = (float(value) for value in np.frombuffer(seen, dtype=np.float32))
+        if kind != 1.0:
+            return None
+        frame = self._memory.frame
+        point = frame.centre + frame.scale * np.array([x, y, z])
+        shape, strip = (None, None) if row < 0 else (int(index) for index in self._terms.strip_source[int(row)])
+        return Seen((float(point[0]), float(point[1]), float(point[2])), distance * frame.scale, shape, strip)
+
     def release(self) -> None:
         """Give back what the GPU holds for this preview; it can't be used after that."""
-        self._target.release()
-        self.texture.release()
+        self._picture.release()
+        self._memory.release()
+        if self._studio is not None:
+            self._studio.release()
 
-    def _resize(self, size: tuple[int, int]) -> None:
-        self.texture = self.ctx.texture(size, 4)
-        self._target = self.ctx.framebuffer([self.texture])
+    def _shot_of(self, camera: Camera, size: tuple[int, int], mode: str) -> Shot:
+        return shot_of(camera, size, mode, self.region, self._memory, self._floor)
+
+    def _begin(self, shot: Shot) -> None:
+        """Another picture: a draft of it at once, and all the refining ahead."""
+        if shot.size != self._picture.size:
+            self._picture.release()
+            self._picture = Picture(self.ctx, shot.size)
+        studio = self._ready_studio()
+        started = perf_counter()
+        self._picture.clear()
+        self._picture.draft(studio, self._memory, shot, self._coarse)
+        self.ctx.finish()
+        seconds = perf_counter() - started
+        self._work = self._picture.refined(studio, self._memory, shot, samples_of(shot))
+        self._shot, self._left = shot, True
+        if seconds > _SLOW:
+            self._coarse = min(self._coarse + 1, _COARSEST)
+        elif seconds < _FAST:
+            self._coarse = max(self._coarse - 1, 1)
+
+    def _refine(self, until: float) -> None:
+        while self._left:
+            self._left = next(self._work, self) is None
+            self.ctx.finish()
+            if perf_counter() >= until:
+                break
+
+    def _ready_studio(self) -> Studio:
+        side = tile_side(self._memory.rows, self._slow)
+        if self._studio is None or self._studio.side != side:
+            if self._studio is not None:
+                self._studio.release()
+            self._studio = Studio(self.ctx, side)
+        return self._studio
+
+
+def shot_of(camera: Camera, size: tuple[int, int], mode: str, where: Region, memory: SceneMemory, floor: float) -> Shot:
+    """All that a picture from this camera needs to know; the floor's height in the unit frame."""
+    if mode not in MODES:
+        raise ValueError(f"mode: expected one of {', '.join(MODES)}, got {mode!r}")
+    uniforms = {
+        **camera_uniforms(camera, size, memory.frame),
+        **light_uniforms(camera),
+        "depth_range": depth_range(camera, where, memory.frame),
+        "ground": int(mode == "clay"),
+        "ground_z": floor,
+    }
+    return Shot(mode, size, uniforms)

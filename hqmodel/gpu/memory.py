@@ -1,0 +1,61 @@
+"""A scene in GPU memory: its texture and the uniforms that go with it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import moderngl
+
+from hqmodel.field import Region, Terms
+from hqmodel.model import Scene
+
+from .packing import Frame, pack
+
+SCENE_UNIT = 0
+
+
+class SceneMemory:
+    """One scene's rows on the GPU."""
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self.ctx = ctx
+        self._texture: moderngl.Texture | None = None
+
+    def write(self, scene: Scene, terms: Terms, region: Region) -> None:
+        """Replace what is there; the texture is made anew only when it has to grow or shrink."""
+        self.frame = Frame.of(region)
+        packed = pack(scene, terms, self.frame)
+        texels = packed.texels()
+        size = texels.shape[1], texels.shape[0]
+        if self._texture is None or self._texture.size != size:
+            self.release()
+            self._texture = self.ctx.texture(size, 4, dtype="f4")
+        self._texture.write(texels.tobytes())
+        self.defines = packed.defines
+        self.rows = len(packed.terms) + len(packed.strips)
+        self.uniforms: dict[str, Any] = {
+            **packed.uniforms,
+            "region_low": tuple(self.frame.local(region.low)),
+            "region_high": tuple(self.frame.local(region.high)),
+            "region_cut": int(region.cut),
+            "scene_memory": SCENE_UNIT,
+        }
+
+    def use(self, program: moderngl.Program) -> None:
+        """Bind the rows for this program."""
+        assert self._texture is not None
+        self._texture.use(SCENE_UNIT)
+        assign(program, self.uniforms)
+
+    def release(self) -> None:
+        if self._texture is not None:
+            self._texture.release()
+            self._texture = None
+
+
+def assign(program: moderngl.Program, values: Mapping[str, Any]) -> None:
+    """Set those uniforms that the program has: a compiler drops the ones that it does not need."""
+    for name, value in values.items():
+        if name in program:
+            program[name] = value

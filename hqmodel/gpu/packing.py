@@ -1,0 +1,134 @@
+"""From the scene's terms in float64 to the rows that the GPU reads in float32.
+
+The world is first moved so that the region's centre lies at the origin and scaled so that its longest half-side is 1: a model
+far from the origin, or of 1e-4 or 1e4 in size, loses nothing that float32 has.
+"""
+
+from __future__ import annotations
+
+from colorsys import hsv_to_rgb
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from hqmodel.field import Region, Terms
+from hqmodel.model import Scene
+
+from .layout import STRIP, TERM, WIDTH
+
+Array = NDArray[np.float64]
+# The largest number that is packed: products of two of them, and sums of those, stay inside float32.
+LIMIT = 1e18
+_GOLDEN = 0.61803398875
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """The GPU's unit frame: x = centre + scale * local."""
+
+    centre: Array
+    scale: float
+
+    @classmethod
+    def of(cls, region: Region) -> Frame:
+        return cls(region.centre, float(np.max(region.size)) / 2)
+
+    def local(self, points: ArrayLike) -> Array:
+        """World points (..., 3) in the unit frame."""
+        result: Array = (np.asarray(points, dtype=float) - self.centre) / self.scale
+        return result
+
+
+@dataclass(frozen=True, eq=False)
+class Packed:
+    """What goes to the GPU: the rows, and what is said once for the whole scene."""
+
+    terms: NDArray[np.void]
+    strips: NDArray[np.void]
+    uniforms: dict[str, float | int]
+    defines: tuple[str, ...]  # what march.glsl is compiled for
+
+    def texels(self) -> NDArray[np.float32]:
+        """The texture's content, (lines, WIDTH, 4)."""
+        flat = np.concatenate([rows.view(np.float32).ravel() for rows in (self.terms, self.strips)])
+        lines = max(1, -(-flat.size // (4 * WIDTH)))
+        whole = np.zeros(lines * WIDTH * 4, dtype=np.float32)
+        whole[: flat.size] = flat
+        return whole.reshape(lines, WIDTH, 4)
+
+
+def pack(scene: Scene, terms: Terms, frame: Frame) -> Packed:
+    """The rows of a scene's terms, in the unit frame."""
+    first_strip = terms.group_start[terms.term_start]
+    uniforms: dict[str, float | int] = {
+        "term_count": len(terms),
+        "term_rows": 0,
+        "strip_rows": len(terms) * TERM.texels,
+        "level_sign": float(np.sign(terms.level)),
+        "level_log": float(np.log(abs(terms.level))) if terms.level else 0.0,
+    }
+    defines = []
+    if terms.grouped:
+        defines.append("GROUPS")
+    if terms.hyperbolic:
+        defines.append("HYPERBOLIC")
+    if not np.all(terms.positive):
+        defines.append("CARVING")
+    if _is_lone(terms):
+        defines.append("LONE")
+        slack = (terms.log_coefficient[0] - np.log(terms.level)) / max(terms.hardness[0], 1e-300)
+        uniforms["lone_constant"] = float(np.clip(terms.constant[0] + slack, -LIMIT, LIMIT))
+        if np.all(terms.outer >= 1) and np.all(terms.inner >= 1):
+            defines.append("CONVEX")
+            uniforms["least_exponent"] = float(np.min(terms.outer))
+    return Packed(_term_rows(scene, terms, first_strip), _strip_rows(scene, terms, frame), uniforms, tuple(defines))
+
+
+def linear(srgb: ArrayLike) -> Array:
+    """sRGB colours, 0 to 1, as linear light."""
+    c = np.asarray(srgb, dtype=float)
+    return np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
+
+
+def tint(number: int) -> tuple[float, float, float]:
+    """The colour, sRGB, that a strip has in the strips mode: neighbours in number differ widely in hue."""
+    return hsv_to_rgb((0.06 + number * _GOLDEN) % 1.0, 0.62, 0.92)
+
+
+def _is_lone(terms: Terms) -> bool:
+    """Whether the body is one elliptic shape."""
+    return len(terms) == 1 and terms.level > 0 and not terms.hyperbolic and bool(terms.positive[0])
+
+
+def _term_rows(scene: Scene, terms: Terms, first_strip: NDArray[np.intp]) -> NDArray[np.void]:
+    rows = np.zeros(len(terms), dtype=TERM.dtype)
+    rows["first"] = first_strip
+    rows["count"] = np.diff(first_strip, append=len(terms.inner))
+    rows["hardness"] = np.clip(terms.hardness, 0, LIMIT)
+    rows["constant"] = np.clip(terms.constant, -LIMIT, LIMIT)
+    rows["log_coefficient"] = terms.log_coefficient
+    rows["adds"] = np.sign(terms.coefficient)
+    if len(terms):
+        rows["hyperbolic"] = np.minimum.reduceat(terms.group_sign, terms.term_start) < 0
+    rows["shape"] = terms.term_source
+    rows["color"] = linear([scene.shapes[shape].color for shape in terms.term_source]).reshape(-1, 3)
+    return rows
+
+
+def _strip_rows(scene: Scene, terms: Terms, frame: Frame) -> NDArray[np.void]:
+    rows = np.zeros(len(terms.inner), dtype=STRIP.dtype)
+    normal = terms.normal * frame.scale
+    offset = terms.normal @ frame.centre + terms.offset
+    size = np.maximum(np.max(np.abs(normal), axis=1, initial=0.0), np.abs(offset))
+    shrink = np.minimum(1.0, LIMIT / np.maximum(size, 1.0))
+    rows["normal"], rows["offset"] = normal * shrink[:, None], offset * shrink
+    rows["inner"] = terms.inner
+    rows["outer"] = terms.outer[terms.group_of_strip]
+    rows["sigma"] = terms.group_sign[terms.group_of_strip]
+    rows["members"][terms.group_start] = np.diff(terms.group_start, append=len(terms.inner))
+    before = np.cumsum([0, *(len(shape.strips) for shape in scene.shapes)])
+    shape, index = terms.strip_source.T
+    rows["number"] = before[shape] + index
+    rows["tint"] = linear([tint(int(number)) for number in rows["number"]]).reshape(-1, 3)
+    return rows

@@ -1,0 +1,71 @@
+"""A finished picture without a window."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from hqmodel.field import Terms, region
+from hqmodel.model import Camera, Scene
+
+from .context import framebuffer_kept, offscreen, software
+from .floor import floor_height
+from .memory import SceneMemory
+from .picture import Picture
+from .preview import shot_of
+from .studio import Shot, Studio, tile_side, tiles
+
+# Samples a pixel.
+SAMPLES = 16
+# The largest part of a picture that is held on the GPU at once, in pixels along a side.
+_PART = 1024
+
+
+def render(
+    scene: Scene,
+    camera: Camera | None = None,
+    size: tuple[int, int] = (1024, 768),
+    mode: str = "clay",
+    samples: int = SAMPLES,
+    ctx: moderngl.Context | None = None,
+) -> NDArray[np.uint8]:
+    """The scene as the preview shows it, (height, width, 4) of sRGB, opaque, top row first.
+
+    Without a camera the body is framed from the standard view. Raises GpuError without OpenGL, ValueError for a mode that is
+    none of `MODES`.
+    """
+    own = offscreen() if ctx is None else ctx
+    terms = Terms.of(scene)
+    where = region(scene, terms)
+    if camera is None:
+        camera = Camera().framing(where.low, where.high, size[0] / size[1])
+    memory = SceneMemory(own)
+    memory.write(scene, terms, where)
+    shot = shot_of(camera, size, mode, where, memory, floor_height(own, memory, where))
+    pixels = _drawn(own, memory, shot, samples)
+    memory.release()
+    if ctx is None:
+        own.release()
+    return pixels
+
+
+def _drawn(ctx: moderngl.Context, memory: SceneMemory, shot: Shot, samples: int) -> NDArray[np.uint8]:
+    """All of the shot, part by part."""
+    result = np.empty((shot.size[1], shot.size[0], 4), dtype=np.uint8)
+    studio = Studio(ctx, tile_side(memory.rows, software(ctx)))
+    with framebuffer_kept(ctx):
+        for left, bottom, width, height in tiles(shot.size, _PART):
+            picture = Picture(ctx, (width, height))
+            part = replace(shot, origin=(left, bottom))
+            picture.clear()
+            for _ in picture.refined(studio, memory, part, samples):
+                ctx.finish()
+            picture.resolve(part)
+            drawn = np.frombuffer(picture.shown.texture.read(), dtype=np.uint8)
+            result[bottom : bottom + height, left : left + width] = drawn.reshape(height, width, 4)
+            picture.release()
+    studio.release()
+    return result[::-1].copy()

@@ -1,0 +1,81 @@
+"""Drawing over a rectangle of a target: a program, its inputs, and where the result goes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import moderngl
+
+from .assembly import program
+from .memory import SceneMemory, assign
+
+# Texture units from here on hold a pass's own inputs; the scene's rows have the one before.
+FIRST_UNIT = 1
+Rectangle = tuple[int, int, int, int]
+
+
+class Target:
+    """Textures of one size, RGBA, that are drawn into together."""
+
+    def __init__(self, ctx: moderngl.Context, size: tuple[int, int], count: int = 1, dtype: str = "f4") -> None:
+        self.size = size
+        self.textures = [ctx.texture(size, 4, dtype=dtype) for _ in range(count)]
+        self.framebuffer = ctx.framebuffer(self.textures)
+
+    @property
+    def texture(self) -> moderngl.Texture:
+        """The first, or only, one."""
+        return self.textures[0]
+
+    @property
+    def whole(self) -> Rectangle:
+        return (0, 0, *self.size)
+
+    def release(self) -> None:
+        """Not to be called while it is bound."""
+        self.framebuffer.release()
+        for texture in self.textures:
+            texture.release()
+
+
+class Pass:
+    """A fragment shader that runs over a rectangle of a target."""
+
+    def __init__(self, ctx: moderngl.Context, fragment: str, defines: tuple[str, ...] = ()) -> None:
+        self.ctx = ctx
+        self.program = program(ctx, fragment, defines)
+        self._triangle = ctx.vertex_array(self.program, [])
+
+    def draw(
+        self,
+        target: Target,
+        rectangle: Rectangle,
+        uniforms: Mapping[str, Any],
+        inputs: Mapping[str, moderngl.Texture],
+        memory: SceneMemory | None = None,
+        adding: bool = False,
+    ) -> None:
+        """Run over rectangle (left, bottom, width, height); inputs by their sampler's name; `adding` to what is there."""
+        target.framebuffer.use()
+        target.framebuffer.viewport = rectangle
+        self.ctx.enable_only(moderngl.BLEND if adding else moderngl.NOTHING)
+        self.ctx.blend_func = moderngl.ADDITIVE_BLENDING
+        if memory is not None:
+            memory.use(self.program)
+        assign(self.program, uniforms)
+        for unit, (name, texture) in enumerate(inputs.items(), FIRST_UNIT):
+            if name in self.program:
+                texture.use(unit)
+                self.program[name] = unit
+        self._triangle.render(moderngl.TRIANGLES, vertices=3)
+
+
+def shared_pass(ctx: moderngl.Context, fragment: str, defines: tuple[str, ...] = ()) -> Pass:
+    """The pass, made at its first use in this context and kept as long as that."""
+    if ctx.extra is None:
+        ctx.extra = {}
+    passes: dict[tuple[str, tuple[str, ...]], Pass] = ctx.extra
+    if (fragment, defines) not in passes:
+        passes[fragment, defines] = Pass(ctx, fragment, defines)
+    return passes[fragment, defines]

@@ -1,0 +1,62 @@
+"""Sending rays through a scene, in as many draws as it takes.
+
+llvmpipe ends a shader's loops after 65,536 turns in all and says nothing; other drivers reset after seconds. So a draw gets a
+number of steps that keeps well below, and the search goes on where it was in the next.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import moderngl
+
+from .memory import SceneMemory
+from .screen import Rectangle, Target, shared_pass
+
+# Turns of all loops that a fragment may take in one draw.
+TURNS = 60_000
+# Looks at a ray's segments after which it is given up: far more than grazing rays were seen to take.
+MOST_STEPS = 3_000
+KINDS = {
+    "given": ("GIVEN_RAYS",),
+    "camera": ("CAMERA_RAYS",),
+    "key": ("KEY_RAYS", "ANY_HIT"),
+    "sky": ("SKY_RAYS", "ANY_HIT"),
+}
+
+
+def trace(
+    ctx: moderngl.Context,
+    kind: str,
+    memory: SceneMemory,
+    states: tuple[Target, Target],
+    rectangle: Rectangle,
+    uniforms: Mapping[str, Any],
+    inputs: Mapping[str, moderngl.Texture],
+) -> tuple[Target, Target]:
+    """Search along one ray of one of `KINDS` a pixel; returns the two targets, first the one that holds the result."""
+    done, spare = states
+    steps, root_steps = _limits(memory.rows)
+    tracing = shared_pass(ctx, "trace.frag", (*KINDS[kind], *memory.defines))
+    for taken in range(0, MOST_STEPS, steps):
+        values = {**uniforms, "fresh": int(taken == 0), "steps": steps, "root_steps": root_steps}
+        tracing.draw(spare, rectangle, values, {**inputs, "state": done.texture}, memory)
+        done, spare = spare, done
+        if not _any_pending(ctx, done, spare, rectangle):
+            break
+    return done, spare
+
+
+def _any_pending(ctx: moderngl.Context, states: Target, scratch: Target, rectangle: Rectangle) -> bool:
+    query = ctx.query(samples=True)
+    with query:
+        shared_pass(ctx, "pending.frag").draw(scratch, rectangle, {}, {"state": states.texture})
+    return bool(query.samples)
+
+
+def _limits(rows: int) -> tuple[int, int]:
+    """Steps a draw, and steps in a root's refinement, for a scene of so many rows (terms and strips)."""
+    walk = 2 * max(rows, 1)
+    root_steps = min(40, max(4, TURNS // (2 * walk)))
+    return max(1, (TURNS - root_steps * walk) // (2 * walk)), root_steps

@@ -1,0 +1,148 @@
+// What is asked of one point of the surface: the direction of L's gradient, the strip that shapes it, the mixed colour, and
+// the Gaussian curvature (eq. 26; Goldman 2005, CAGD 22, section 4.1).
+
+#include "field.glsl"
+
+// A term's part in the slope of F at x: ln (|c| beta exp T) relative to the surface, with its sign apart.
+float log_weight(Term term, vec3 x)
+{
+    return term_value(term, x) + log(max(term.hardness, 1e-30));
+}
+
+struct Touch {
+    vec3 normal; // outwards, of length 1; 0 where there is no slope
+    float strip; // the row of the strip with the largest share in the slope; -1 for none
+};
+
+// One walk over all strips. With `top` the largest logarithm of a share met so far, shares are summed relative to it.
+Touch touch_at(vec3 x)
+{
+    vec3 slope = vec3(0.0);
+    float top = NOTHING;
+    float strongest = -1.0;
+    for (int k = 0; k < term_count; ++k) {
+        Term term = term_row(k);
+        float weight = log_weight(term, x) * 1.44269504;
+        int row = int(term.first);
+        int end = row + int(term.count);
+        while (row < end) {
+            Strip lead = strip_row(row);
+            int members = int(lead.members);
+            float size = members == 1 ? 0.0 : group_exponent(lead, row, x) / lead.outer;
+            for (int i = 0; i < members; ++i) {
+                Strip strip = lead;
+                if (i > 0)
+                    strip = strip_row(row + i);
+                float h = strip_function(strip, x);
+                float u = log2_of(abs(h));
+                if (members == 1)
+                    size = u;
+                // G S^(G/g - 1) |h|^(g - 1), S^(1/g) = 2^size
+                float share = weight + log2(lead.outer) + (lead.outer - lead.inner) * size + (lead.inner - 1.0) * u;
+                float pull = share + log2(max(length(strip.normal), 1e-30));
+                if (h == 0.0 || pull < top - 60.0)
+                    continue;
+                if (pull > top) {
+                    slope *= exp2(max(top - pull, -126.0));
+                    top = pull;
+                    strongest = float(row + i);
+                }
+                slope += term.adds * lead.sigma * sign(h) * exp2(pull - top) * normalize(strip.normal);
+            }
+            row += members;
+        }
+    }
+    float size = length(slope);
+    return Touch(size > 0.0 ? slope / size : vec3(0.0), strongest);
+}
+
+// The colours of the shapes that add, by their shares.
+vec3 mixed_color(vec3 x)
+{
+    vec3 total = vec3(0.0);
+    vec2 sum = vec2(NOTHING, 0.0);
+    for (int k = 0; k < term_count; ++k) {
+        Term term = term_row(k);
+        if (term.adds < 0.0)
+            continue;
+        float rise = term_value(term, x) - sum.x;
+        float scale = exp(-abs(rise));
+        if (rise > 0.0) {
+            total = total * scale + term.color;
+            sum = vec2(sum.x + rise, sum.y * scale + 1.0);
+        } else {
+            total += scale * term.color;
+            sum.y += scale;
+        }
+    }
+    return total / max(sum.y, 1e-30);
+}
+
+// First and second derivatives of one term's H: slope, then the second ones by xx, yy, zz and xy, yz, zx.
+struct Bend {
+    vec3 slope;
+    vec3 straight;
+    vec3 mixed;
+};
+
+void add_outer(inout Bend bend, vec3 a, float weight)
+{
+    bend.straight += weight * a * a;
+    bend.mixed += weight * a * a.yzx;
+}
+
+Bend term_bend(Term term, vec3 x)
+{
+    Bend bend = Bend(vec3(0.0), vec3(0.0), vec3(0.0));
+    int row = int(term.first);
+    int end = row + int(term.count);
+    while (row < end) {
+        Strip lead = strip_row(row);
+        int members = int(lead.members);
+        float size = group_exponent(lead, row, x) / lead.outer;
+        float value = lead.sigma * exp2(min(lead.outer * size, TOP));
+        vec3 lean = vec3(0.0);
+        for (int i = 0; i < members; ++i) {
+            Strip strip = strip_row(row + i);
+            float h = strip_function(strip, x);
+            if (h == 0.0)
+                continue;
+            float share = exp2(lead.inner * (log2_of(abs(h)) - size)); // |h|^g / S
+            vec3 relative = strip.normal / h;
+            lean += share * relative;
+            add_outer(bend, relative, value * lead.outer * (lead.inner - 1.0) * share);
+        }
+        bend.slope += value * lead.outer * lean;
+        add_outer(bend, lean, value * lead.outer * (lead.outer - lead.inner));
+        row += members;
+    }
+    return bend;
+}
+
+// In the unit frame: divide by the scale's square for the world's.
+float gaussian_curvature(vec3 x)
+{
+    vec3 slope = vec3(0.0);
+    Bend total = Bend(vec3(0.0), vec3(0.0), vec3(0.0));
+    float top = NOTHING;
+    for (int k = 0; k < term_count; ++k)
+        top = max(top, term_value(term_row(k), x));
+    for (int k = 0; k < term_count; ++k) {
+        Term term = term_row(k);
+        float weight = term.adds * term.hardness * exp(max(term_value(term, x) - top, -100.0));
+        Bend bend = term_bend(term, x);
+        slope -= weight * bend.slope;
+        total.straight -= weight * bend.straight;
+        total.mixed -= weight * bend.mixed;
+        add_outer(total, bend.slope, weight * term.hardness);
+    }
+    float size = length(slope);
+    if (!(size > 0.0 && size < 1e30))
+        return 0.0;
+    vec3 n = slope / size;
+    vec3 d = total.straight / size;
+    vec3 m = total.mixed / size; // xy, yz, zx
+    vec3 adjugate_straight = d.yzx * d.zxy - m.yzx * m.yzx;
+    vec3 adjugate_mixed = m.zxy * m.yzx - m * d.zxy;
+    return dot(n * n, adjugate_straight) + 2.0 * dot(n * n.yzx, adjugate_mixed);
+}

@@ -1,0 +1,211 @@
+// The intersection of a ray with the body, and nothing else. No step is guessed: a segment is left behind only where a line above
+// L (bounds.glsl) says that it holds no surface, so nothing thicker than SHORTEST is passed by, at any exponent.
+//
+// A search may be spread over several draws (llvmpipe ends a shader's loops, without a word, at 65,536 turns in all; other
+// drivers reset after seconds): between them it is a vec4.
+
+#include "bounds.glsl"
+#include "rays.glsl"
+
+// LONE is defined where the body is one elliptic shape, CONVEX where that is convex.
+uniform float lone_constant;  // its H at the surface
+uniform float least_exponent; // the least of its exponents
+uniform int root_steps;       // at most so many to refine a root
+
+const float SEARCHING = 0.0;
+const float CERTIFYING = 1.0; // a root is known at `far`; is it the first?
+const float HIT = 2.0;
+const float INSIDE = 3.0;     // the ray began in the body
+const float MISS = 4.0;
+
+const float SHORTEST = 4e-6;  // lengths in the unit frame
+const float NEIGHBOUR = 5e-5; // a root that lies so little before another need not be told from it
+const int NEWTON_STEPS = 64;
+
+struct March {
+    float t;     // no surface before this
+    float dt;    // the segment to look at next
+    float far;   // no surface after this, or a root
+    float phase;
+};
+
+#ifdef LONE
+// The part of the ray between the lone shape's bounding planes.
+vec2 between_planes(Ray ray)
+{
+    vec2 span = vec2(0.0, ray.far);
+    if (lone_constant <= 0.0)
+        return vec2(1.0, -1.0);
+    int count = int(term_row(0).count);
+    int first = int(term_row(0).first);
+    float exponent = 1.0;
+    for (int i = first; i < first + count; ++i) {
+        Strip strip = strip_row(i);
+        exponent = strip.members > 0.0 ? strip.outer : exponent;
+        float reach = exp2(log2(lone_constant) / exponent) * (1.0 + 1e-6);
+        float h = strip_function(strip, ray.origin);
+        float rate = dot(strip.normal, ray.direction);
+        if (abs(rate) < 1e-12 * (1.0 + abs(h))) {
+            if (abs(h) > reach)
+                return vec2(1.0, -1.0);
+            continue;
+        }
+        float middle = -h / rate;
+        float half_length = abs(reach / rate);
+        span = vec2(max(span.x, middle - half_length), min(span.y, middle + half_length));
+    }
+    return span;
+}
+#endif
+
+March begin_march(Ray ray)
+{
+    March march = March(0.0, 0.0, ray.far, MISS);
+    if (term_count == 0 || !(ray.far >= 0.0))
+        return march;
+#ifdef LONE
+    vec2 span = between_planes(ray);
+    march.t = max(0.0, span.x - SHORTEST); // a step back, lest rounding puts the start into the body
+    march.far = span.y;
+#endif
+    march.dt = 0.5 * (march.far - march.t);
+    march.phase = march.t <= march.far ? SEARCHING : MISS;
+    return march;
+}
+
+#ifdef CONVEX
+// H of the lone shape, its slope along the ray, and the longest step that one of its groups allows towards the body.
+vec3 convex_sum(vec3 x, vec3 direction)
+{
+    vec3 total = vec3(0.0);
+    int row = int(term_row(0).first);
+    int end = row + int(term_row(0).count);
+    while (row < end) {
+        Strip strip = strip_row(row);
+        float h = strip_function(strip, x);
+        float size = log2_of(abs(h));
+        float slope = h == 0.0 ? 0.0 : strip.outer * dot(strip.normal, direction) / h;
+#ifdef GROUPS
+        if (strip.members > 1.0) {
+            vec3 sum = NO_SHARE;
+            for (int i = 0; i < int(strip.members); ++i) {
+                Strip member = strip_row(row + i);
+                float h = strip_function(member, x);
+                add_share(sum, abs(h), sign(h) * dot(member.normal, direction), strip.inner);
+            }
+            size = share_exponent(sum, strip) / strip.outer;
+            slope = strip.outer * sum.z / sum.y;
+        }
+#endif
+        float v = exp2(min(strip.outer * size, TOP));
+        total.xy += v * vec2(1.0, slope);
+#ifdef GROUPS
+        if (v > lone_constant && slope < 0.0)
+            total.z = max(total.z, strip.outer / slope * (exp2(log2(lone_constant) / strip.outer - size) - 1.0));
+#endif
+        row += int(strip.members);
+    }
+    return total;
+}
+
+// H^(1 / least exponent) of a lone convex shape is convex and nearly straight: Newton's steps never pass the surface.
+void march_convex(Ray ray, inout March march)
+{
+    for (int i = 0; i < NEWTON_STEPS; ++i) {
+        vec3 sum = convex_sum(ray.origin + march.t * ray.direction, ray.direction);
+        if (sum.x <= lone_constant) {
+            march.phase = march.t == 0.0 ? INSIDE : HIT;
+            return;
+        }
+        float rest = exp2(log2(lone_constant / sum.x) / least_exponent) - 1.0;
+        float step = max(least_exponent * sum.x / sum.y * rest, sum.z);
+        march.t += step;
+        if (sum.y >= 0.0 || march.t > march.far) {
+            march.phase = MISS;
+            return;
+        }
+        if (step < 2e-7 * (1.0 + march.t))
+            break;
+    }
+    march.phase = HIT;
+}
+#else
+// Squeezed into -1 .. 1, nearly straight near 0: what a false-position step can use when L is of any size.
+float squeezed(float ratio)
+{
+    return ratio / (1.0 + abs(ratio));
+}
+
+// A root between `outside`, where L is `low` <= 0, and `inside`, where it is `high` > 0 (false position, Illinois' way, with
+// bisection mixed in).
+float root_between(Ray ray, float outside, float inside, float low, float high)
+{
+    low = min(squeezed(low), -1e-9);
+    high = squeezed(high);
+    for (int i = 0; i < root_steps && inside - outside > 4e-7 * (1.0 + outside); ++i) {
+        float share = i % 4 == 3 ? 0.5 : clamp(low / (low - high), 0.01, 0.99);
+        float middle = outside + share * (inside - outside);
+        float value = squeezed(log_ratio(ray.origin + middle * ray.direction));
+        if (abs(value) < 1e-7)
+            return middle;
+        if (value > 0.0) {
+            inside = middle;
+            high = value;
+            low *= 0.5;
+        } else {
+            outside = middle;
+            low = value;
+            high *= 0.5;
+        }
+    }
+    return inside;
+}
+
+// One look at the segment ahead.
+void march_on(Ray ray, inout March march)
+{
+    bool certifying = march.phase == CERTIFYING;
+    float end = certifying ? march.far - NEIGHBOUR : march.far;
+    if (march.t >= end) {
+        march.t = march.far;
+        march.phase = certifying ? HIT : MISS;
+        return;
+    }
+    float dt = min(march.dt, end - march.t);
+    Span ahead = look_ahead(ray.origin + march.t * ray.direction, dt * ray.direction);
+    bool shortest = dt <= SHORTEST;
+    if (march.t == 0.0 && ahead.ends.x > 0.0) {
+        march.phase = INSIDE;
+    } else if (max(ahead.line.x, ahead.line.y) < 0.0) {
+        march.t += dt;
+        march.dt = 2.0 * dt;
+    } else if (ahead.line.x >= 0.0 && !shortest) {
+        march.dt = 0.35 * dt;
+    } else {
+        float next = march.t + dt;
+        if (ahead.ends.y > 0.0 && (!certifying || next < end)) {
+#ifdef ANY_HIT
+            march.phase = HIT;
+            return;
+#endif
+            march.far = root_between(ray, march.t, next, ahead.ends.x, ahead.ends.y);
+            march.phase = CERTIFYING;
+        }
+        float passed = shortest ? dt : 0.999 * dt * ahead.line.x / (ahead.line.x - ahead.line.y);
+        march.t += passed;
+        march.dt = max(shortest ? 2.0 * dt : 0.6 * (dt - passed), SHORTEST);
+    }
+}
+#endif
+
+// At most `steps` more looks.
+void march_some(Ray ray, int steps, inout March march)
+{
+#ifdef CONVEX
+    if (march.phase == SEARCHING)
+        march_convex(ray, march);
+#else
+    for (int i = 0; i < steps && march.phase < HIT; ++i)
+        march_on(ray, march);
+#endif
+}

@@ -1,0 +1,80 @@
+#version 330 core
+// What each pixel of a tile sees: where, how it faces, its colour and strip. Everything later is worked out from this.
+
+#include "jet.glsl"
+#include "march.glsl"
+
+const int CURVATURE = 2;
+const int STRIPS = 3;
+
+uniform sampler2D state;
+uniform int region_cut;
+uniform int mode;
+uniform int ground;       // whether there is one
+uniform float ground_z;
+
+layout(location = 0) out vec4 surface_position; // xyz, w: distance from the eye
+layout(location = 1) out vec4 surface_normal;   // xyz, w: 0 nothing, 1 the body, 2 the ground
+layout(location = 2) out vec4 surface_color;    // linear light, w: the strip's row, -1 for none
+
+// The face of the region's box that a point on it lies in.
+vec3 face_normal(vec3 x)
+{
+    vec3 middle = 0.5 * (region_low + region_high);
+    vec3 from = (x - middle) / (0.5 * (region_high - region_low));
+    vec3 a = abs(from);
+    vec3 axis = a.x >= max(a.y, a.z) ? vec3(1, 0, 0) : a.y >= a.z ? vec3(0, 1, 0) : vec3(0, 0, 1);
+    return axis * sign(from);
+}
+
+// Blue where the surface is a saddle, grey where it is flat or bent one way, orange where it is a dome.
+vec3 curvature_color(float curvature)
+{
+    float size = asinh(4.0 * abs(curvature)) / asinh(400.0);
+    vec3 far = curvature < 0.0 ? vec3(0.03, 0.13, 0.62) : vec3(0.78, 0.16, 0.02);
+    return mix(vec3(0.62), far, smoothstep(0.0, 1.0, min(size, 1.0)));
+}
+
+vec3 body_color(vec3 x, float strip)
+{
+    if (mode == STRIPS)
+        return strip < 0.0 ? vec3(0.5) : strip_row(int(strip)).tint;
+    if (mode == CURVATURE)
+        // a hair aside: at h = 0 itself a second derivative is not had from powers of h
+        return curvature_color(gaussian_curvature(x + vec3(1.3e-6, 1.7e-6, 1.1e-6)));
+    return mixed_color(x);
+}
+
+void main()
+{
+    Sight sight = tile_sight();
+    float enter;
+    Ray ray = enter_region(sight.origin, sight.direction, enter);
+    vec4 march = texelFetch(state, ivec2(gl_FragCoord.xy), 0);
+    bool hit = march.w == HIT || march.w == INSIDE || march.w == CERTIFYING;
+    float distance = enter + (march.w == CERTIFYING ? march.z : march.x);
+
+    float to_ground = (ground_z - sight.origin.z) / sight.direction.z;
+    if (ground != 0 && sight.direction.z < -1e-4 && to_ground > 0.0 && !(hit && distance <= to_ground)) {
+        surface_position = vec4(sight.origin.xy + to_ground * sight.direction.xy, ground_z, to_ground);
+        surface_normal = vec4(0.0, 0.0, 1.0, 2.0);
+        surface_color = vec4(0.0, 0.0, 0.0, -1.0);
+        return;
+    }
+    surface_position = vec4(0.0);
+    surface_normal = vec4(0.0);
+    surface_color = vec4(0.0, 0.0, 0.0, -1.0);
+    if (!hit)
+        return;
+    vec3 x = ray.origin + (distance - enter) * ray.direction;
+    Touch touch = touch_at(x);
+    vec3 normal = touch.normal;
+    bool capped = march.w == INSIDE && region_cut != 0 && enter > 0.0;
+    if (capped)
+        normal = face_normal(x);
+    else if (march.w == INSIDE && enter == 0.0 || normal == vec3(0.0))
+        normal = -sight.direction;
+    surface_position = vec4(x, distance);
+    surface_normal = vec4(normal, 1.0);
+    surface_color = vec4(body_color(x, capped ? -1.0 : touch.strip), capped ? -1.0 : touch.strip);
+}

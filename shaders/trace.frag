@@ -1,0 +1,66 @@
+#version 330 core
+// One ray a fragment through the scene. Drawn again, with what came out before as `state`, until nothing is left to search.
+// Which rays: GIVEN_RAYS from a table, CAMERA_RAYS, KEY_RAYS from surfaces towards the key light, SKY_RAYS all round.
+
+#include "march.glsl"
+#include "light.glsl"
+
+uniform sampler2D state;
+uniform int fresh; // whether this is the first draw
+uniform int steps;
+
+#ifdef GIVEN_RAYS
+uniform sampler2D ray_origins;    // xyz, w: how far the ray goes
+uniform sampler2D ray_directions; // xyz
+#else
+uniform sampler2D surface_position; // xyz, w: distance from the eye
+uniform sampler2D surface_normal;   // xyz, w: what it is
+#endif
+#ifdef SKY_RAYS
+uniform int sky_number; // which of a point's rays to the sky
+#endif
+
+out vec4 march_state;
+
+const float LIFT = 1.5e-3; // how far above a surface its own rays begin
+
+Ray this_ray(ivec2 at)
+{
+    float enter;
+#if defined(GIVEN_RAYS)
+    vec4 origin = texelFetch(ray_origins, at, 0);
+    return Ray(origin.xyz, texelFetch(ray_directions, at, 0).xyz, origin.w);
+#elif defined(CAMERA_RAYS)
+    Sight sight = tile_sight();
+    return enter_region(sight.origin, sight.direction, enter);
+#else
+    vec3 position = texelFetch(surface_position, at, 0).xyz;
+    vec4 normal = texelFetch(surface_normal, at, 0);
+    if (normal.w == 0.0)
+        return Ray(position, normal.xyz, -1.0);
+    vec2 pixel = gl_FragCoord.xy + tile_origin;
+#ifdef KEY_RAYS
+    vec3 direction = key_ray(spread(pixel, 0.17));
+    if (dot(direction, normal.xyz) <= 0.0)
+        return Ray(position, direction, -1.0);
+#else
+    vec3 direction = sky_ray(normal.xyz, spread(pixel, sky_salts[sky_number]));
+#endif
+    return enter_region(position + LIFT * normal.xyz, direction, enter);
+#endif
+}
+
+void main()
+{
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    Ray ray = this_ray(at);
+    March march;
+    if (fresh != 0) {
+        march = begin_march(ray);
+    } else {
+        vec4 before = texelFetch(state, at, 0);
+        march = March(before.x, before.y, before.z, before.w);
+    }
+    march_some(ray, steps, march);
+    march_state = vec4(march.t, march.dt, march.far, march.phase);
+}
