@@ -39,7 +39,7 @@ test: system-test $(VENV)/.installed-for-tests
 	xvfb-run -a -s "-screen 0 1920x1200x24" $(BIN)/python -m pytest -n 2
 
 bench: system-run $(VENV)/.installed-for-tests
-	$(BIN)/python -m benchmarks
+	$(BIN)/python -m benchmarks.export
 
 schema: $(VENV)/.installed
 	$(BIN)/python -c "from hqmodel.files import schema_text; print(schema_text(), end='')" > presets/hqmodel-1.schema.json

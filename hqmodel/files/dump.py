@@ -63,12 +63,12 @@ def _worth_saying(value: Value, name: str) -> bool:
 
 
 def _written(value: Any, indent: int, whole: bool = False) -> str:
-    """JSON text: a list of objects has one item a line, all else is on one line where it fits; `whole` never is."""
+    """JSON text: lists of objects, and objects that don't fit a line, have one item a line; `whole` never is on one line."""
     if not isinstance(value, (dict, list)) or not value:
         return _line(value)
     if not whole and not _holds_objects(value):
         line = _line(value)
-        if len(line) + indent <= _WIDTH:
+        if isinstance(value, list) or len(line) + indent <= _WIDTH:
             return line
     margin = " " * (indent + 2)
     if isinstance(value, dict):

@@ -72,7 +72,7 @@ def _whole(digits: str) -> int | float:
 
 def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     result = dict(pairs)
-    if len(result) == len(pairs):
+    if len(result) == len(pairs):  # nearly always
         return result
     seen: set[str] = set()
     marked = _Repeating(result)
@@ -94,7 +94,8 @@ def _faults(tree: dict[str, Any]) -> Iterator[str]:
         inner = []
         for step, item in items:
             if isinstance(item, (dict, list)):
-                inner.append(((*where, step), item))
+                if item:
+                    inner.append(((*where, step), item))
             elif fault := _leaf_fault(item):
                 yield f"{place((*where, step))}: {fault}"
             if isinstance(step, str) and not _is_unicode(step):

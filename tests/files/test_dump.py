@@ -84,7 +84,7 @@ def test_flat_normals_have_two_components() -> None:
 
 
 def test_what_only_fits_without_blanks_is_saved_without(tmp_path: Path) -> None:
-    scene = Scene.model_validate({"shapes": [], "points": [[0] * 4] * 350_000})
+    scene = Scene.model_validate({"shapes": [], "points": [[0] * 4] * 310_000})
     assert len(dumps(scene)) > 4 << 20
     save(scene, tmp_path / "a.json")
     assert load(tmp_path / "a.json") == scene
