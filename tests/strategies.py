@@ -42,7 +42,9 @@ PLAIN = st.recursive(
     lambda inner: st.lists(inner, max_size=2) | st.dictionaries(st.text(max_size=3), inner, max_size=2),
     max_leaves=3,
 )
-UNKNOWN = st.just({}) | st.dictionaries(st.sampled_from(["x-note", "x-ä", "x- _"]), PLAIN, min_size=1, max_size=2)
+UNKNOWN: st.SearchStrategy[dict[str, Any]] = st.just({}) | st.dictionaries(
+    st.sampled_from(["x-note", "x-ä", "x- _"]), PLAIN, min_size=1, max_size=2
+)
 
 
 @st.composite

@@ -15,6 +15,7 @@ from hqmodel.model import VIEWS, Camera, Scene, shown
 from .faults import MACHINE, USAGE, Fault
 from .options import Json, Preset, Quiet, Set, Slice, scene_of
 from .outputs import checked, tell, writing
+from .progress import progress
 
 LARGEST = 8192
 
@@ -31,7 +32,7 @@ Mode = Annotated[str, typer.Option("--mode", metavar="MODE", help="clay, normals
 def render(
     preset: Preset,
     output: Output,
-    size: Size = "1280x960",
+    size: Size = "1024x768",
     view: View = None,
     azimuth: Azimuth = None,
     elevation: Elevation = None,
@@ -52,7 +53,8 @@ def render(
     if mode not in gpu.MODES:
         raise Fault(f"--mode: expected {', '.join(gpu.MODES)}, got {shown(mode)}", USAGE)
     try:
-        pixels = gpu.render(scene, camera, (width, height), mode)
+        with progress(quiet) as report:
+            pixels = gpu.render(scene, camera, (width, height), mode, progress=report)
     except gpu.GpuError as error:
         raise Fault(str(error), MACHINE) from None
     from PIL import Image

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from math import ceil
 
 import moderngl
 import numpy as np
@@ -14,7 +16,7 @@ from hqmodel.model import Camera, Scene
 from .context import framebuffer_kept, offscreen, software
 from .floor import floor_height
 from .memory import SceneMemory
-from .picture import Picture
+from .picture import BATCH, Picture
 from .preview import shot_of
 from .studio import Shot, Studio, tile_side, tiles
 
@@ -31,10 +33,12 @@ def render(
     mode: str = "clay",
     samples: int = SAMPLES,
     ctx: moderngl.Context | None = None,
+    progress: Callable[[float, str], None] | None = None,
 ) -> NDArray[np.uint8]:
     """The scene as the preview shows it, (height, width, 4) of sRGB, opaque, top row first.
 
-    Without a camera the body is framed from the standard view. Raises GpuError without OpenGL, ValueError for a mode that is
+    Without a camera the body is framed from the standard view. `progress` is told the share done (0..1) and what is being done;
+    whatever it raises ends the work. Raises GpuError without OpenGL, ValueError for a mode that is
     none of `MODES`.
     """
     own = offscreen() if ctx is None else ctx
@@ -45,27 +49,32 @@ def render(
     memory = SceneMemory(own)
     memory.write(scene, terms, where)
     shot = shot_of(camera, size, mode, where, memory, floor_height(own, memory, where))
-    pixels = _drawn(own, memory, shot, samples)
+    pixels = _drawn(own, memory, shot, samples, progress or (lambda share, doing: None))
     memory.release()
     if ctx is None:
         own.release()
     return pixels
 
 
-def _drawn(ctx: moderngl.Context, memory: SceneMemory, shot: Shot, samples: int) -> NDArray[np.uint8]:
+def _drawn(
+    ctx: moderngl.Context, memory: SceneMemory, shot: Shot, samples: int, tell: Callable[[float, str], None]
+) -> NDArray[np.uint8]:
     """All of the shot, part by part."""
     result = np.empty((shot.size[1], shot.size[0], 4), dtype=np.uint8)
     studio = Studio(ctx, tile_side(memory.rows, software(ctx)))
-    with framebuffer_kept(ctx):
-        for left, bottom, width, height in tiles(shot.size, _PART):
-            picture = Picture(ctx, (width, height))
-            part = replace(shot, origin=(left, bottom))
+    parts = tiles(shot.size, _PART)
+    for number, (left, bottom, width, height) in enumerate(parts):
+        picture = Picture(ctx, (width, height))
+        part = replace(shot, origin=(left, bottom))
+        with framebuffer_kept(ctx):
             picture.clear()
-            for _ in picture.refined(studio, memory, part, samples):
+            steps = ceil(samples / BATCH) * len(tiles((width, height), studio.side))
+            for step, _ in enumerate(picture.refined(studio, memory, part, samples)):
                 ctx.finish()
+                tell((number + min(1.0, (step + 1) / steps)) / len(parts), "Drawing")
             picture.resolve(part)
             drawn = np.frombuffer(picture.shown.texture.read(), dtype=np.uint8)
-            result[bottom : bottom + height, left : left + width] = drawn.reshape(height, width, 4)
-            picture.release()
+        result[bottom : bottom + height, left : left + width] = drawn.reshape(height, width, 4)
+        picture.release()
     studio.release()
     return result[::-1].copy()
