@@ -95,5 +95,27 @@ def test_the_wheel_exports_and_renders_from_any_folder(wheel: Path, tmp_path: Pa
     assert {path.name for path in tmp_path.iterdir()} == {"a.glb", "a.png"}
 
 
+WINDOW = """
+"$@" & program=$!
+until window=$(xdotool search --onlyvisible --name " - hqmodel"); do
+    kill -0 $program || exit 1
+    sleep 0.1
+done
+xdotool getwindowname $window
+kill -TERM $program
+wait $program
+echo ended with $?
+"""
+
+
+def test_the_wheel_opens_its_window_from_any_folder(wheel: Path, tmp_path: Path) -> None:
+    (tmp_path / "mine.json").write_text('{"format": "hqmodel", "version": 1, "shapes": []}')
+    environment = {**os.environ, "PYTHONPATH": str(wheel)}
+    display = ["xvfb-run", "-a", "-s", "-screen 0 1280x800x24"]
+    command = [*display, "sh", "-c", WINDOW, "sh", sys.executable, str(wheel / "bin" / "hqmodel"), "mine.json"]
+    done = subprocess.run(command, check=False, capture_output=True, text=True, cwd=tmp_path, env=environment)
+    assert (done.returncode, done.stdout) == (0, "mine - hqmodel\nended with 143\n"), done.stderr
+
+
 def test_imports_go_one_way() -> None:
     python("-c", "from importlinter.cli import lint_imports; raise SystemExit(lint_imports(no_cache=True))", cwd=ROOT)
