@@ -176,6 +176,14 @@ def _switch_projection(session: Session) -> None:
     session.view = session.view.moved(replace(camera, orthographic=not camera.orthographic))
 
 
+def _refining(session: Session) -> bool:
+    return session.refining
+
+
+def _switch_refining(session: Session) -> None:
+    session.keep(session.settings.preferring(refining=not session.refining))
+
+
 def _frame_all(session: Session) -> None:
     session.frame(session.region)
 
@@ -237,6 +245,7 @@ ACTIONS: dict[str, Action] = {
         f"view {name}": Action(name.capitalize(), partial(_look, name), (_KEYS[name],) if name in _KEYS else ()) for name in VIEWS
     },
     "orthographic": Action("Orthographic", _switch_projection, ("Num 5",), _always, lambda s: s.view.camera.orthographic),
+    "refine": Action("Refine at Rest", _switch_refining, (), _always, _refining),
     "frame all": Action("Frame All", _frame_all, ("Home",)),
     "frame selected": Action("Frame Selected", _frame_selected, ("F", "Num .")),
     **{f"panel {name}": Action(name, partial(_toggle_panel, name), (), _always, partial(_panel_shown, name)) for name in PANELS},
@@ -259,6 +268,7 @@ MENUS: dict[str, tuple[Entry, ...]] = {
     "Add": (*(f"add {kind}" for kind in edit.PRIMITIVES), None, "add strip"),
     "View": (
         *(f"mode {mode}" for mode in MODES),
+        "refine",
         None,
         "frame all",
         "frame selected",

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from hqmodel.gpu import Preview
-from hqmodel.model import Scene
+from hqmodel.field import Region
+from hqmodel.gpu import Preview, Seen
+from hqmodel.model import Camera, Scene
 
 from .view import View
 
@@ -19,17 +20,26 @@ class Canvas:
     def __init__(self, ctx: moderngl.Context) -> None:
         self._preview = Preview(ctx)
         self._scene: Scene | None = None
-        self._drawn: object = None
+        self._drawn: tuple[View, tuple[int, int]] | None = None
         self.unfinished = True
 
-    def draw(self, scene: Scene, view: View, size: tuple[int, int], moving: bool) -> int:
-        """Bring the picture up to date, roughly while things are moving; its texture's name."""
+    @property
+    def region(self) -> Region:
+        """Where the body is that the picture shows."""
+        return self._preview.region
+
+    def draw(self, scene: Scene, view: View, size: tuple[int, int], resting: bool) -> int:
+        """Bring the picture up to date, by a draft at first and finer while at rest; its texture's name."""
         if scene is not self._scene:
             self._preview.show(scene)
             self._scene, self._drawn = scene, None
-        wanted = (view, size)
-        changed, self._drawn = wanted != self._drawn, wanted
-        if changed or self.unfinished:
-            better = self._preview.draw(view.camera, size, view.mode, quick=moving or changed)
-            self.unfinished = better or moving or changed
+        if self._drawn != (view, size):
+            self._preview.draw(view.camera, size, view.mode, quick=True)
+            self._drawn, self.unfinished = (view, size), True
+        elif resting and self.unfinished:
+            self.unfinished = self._preview.draw(view.camera, size, view.mode)
         return int(self._preview.texture.glo)
+
+    def pick(self, camera: Camera, size: tuple[int, int], pixel: tuple[int, int]) -> Seen | None:
+        """What the picture shows at a pixel, counted from the top left."""
+        return self._preview.pick(camera, size, pixel)

@@ -63,11 +63,25 @@ class Session:
         return chosen if chosen in actions.THEMES else actions.THEMES[0]
 
     @property
+    def refining(self) -> bool:
+        """Whether the picture gets better while nothing happens; a slow machine may do without."""
+        return self.settings.preferences.get("refining") is not False
+
+    @property
     def region(self) -> Region:
         """Where the body is, for the scene as it stands."""
         if self._region[0] is not self.scene:
             self._region = self.scene, region(self.scene)
         return self._region[1]
+
+    @property
+    def shown_region(self) -> Region:
+        """Where the body is that was shown last: what is known of it without working it out."""
+        return self._region[1]
+
+    def located(self, scene: Scene, where: Region) -> None:
+        """Somebody has worked out where this scene's body is."""
+        self._region = scene, where
 
     def apply(self, intents: Iterable[Intent]) -> None:
         """Carry out what panels want done, one after the other."""

@@ -27,6 +27,8 @@ from .thumbnails import Thumbnails
 IDLE_SECONDS = 10.0
 # It goes on drawing for so long after the last event, for tooltips to appear.
 AWAKE_SECONDS = 0.7
+# The preview is refined when the hand has been still for so long.
+CALM_SECONDS = 0.15
 SIZE = 1280, 800
 
 
@@ -44,7 +46,9 @@ class Window:
         self._chooser = native.NativeChooser() if native_dialogs and native.available() else None
         self._dropped: list[Path] = []
         self._title = ""
+        self._stirred = 0.0
         self._themed: tuple[str, float] | None = None
+        self.panels = self._panels()
         self.params = self._parameters()
 
     def run(self) -> None:
@@ -76,7 +80,7 @@ class Window:
         inner.show_menu_bar, inner.show_menu_app, inner.show_menu_view = True, False, False
         inner.show_status_bar, inner.show_status_fps, inner.remember_theme = True, False, False
         self._callbacks(params.callbacks)
-        params.docking_params = layout.docking(self._panels())
+        params.docking_params = layout.docking({name: self._guarded(name, partial(self._draw, name)) for name in self.panels})
         return params
 
     def _callbacks(self, callbacks: hello_imgui.RunnerCallbacks) -> None:
@@ -89,17 +93,19 @@ class Window:
         callbacks.post_render_dockable_windows = self._after
         callbacks.confirm_exit = self._may_exit
 
-    def _panels(self) -> dict[str, Callable[[], None]]:
+    def _panels(self) -> dict[str, Callable[[], Iterable[Intent]]]:
         session, memory = self.session, self._memory
-        draws: dict[str, Callable[[], Iterable[Intent]]] = {
+        return {
             "Outliner": lambda: outliner.draw(session, self._tree),
-            "Presets": lambda: presets.draw(session, self._shelf, self._thumbnails.texture),
-            "Viewport": lambda: viewport.draw(session, self._hand, self._picture),
+            "Presets": lambda: presets.draw(session, self._shelf, self.thumbnails.texture),
+            "Viewport": lambda: viewport.draw(session, self._hand, self),
             "Properties": lambda: properties.draw(session, memory),
             "Scene": lambda: scene.draw(session, memory),
             "Slice": lambda: slice_bar.draw(session, memory),
         }
-        return {name: self._guarded(name, draw) for name, draw in draws.items()}
+
+    def _draw(self, name: str) -> Iterable[Intent]:
+        return self.panels[name]()
 
     def _guarded(self, name: str, draw: Callable[[], Iterable[Intent]]) -> Callable[[], None]:
         return partial(self.guard.run, name, draw)
@@ -113,7 +119,7 @@ class Window:
 
         ctx = moderngl.create_context()
         self._canvas = Canvas(ctx)
-        self._thumbnails = Thumbnails(ctx)
+        self.thumbnails = Thumbnails(ctx)
         self.window = glfw_window_hello_imgui()
         glfw.set_drop_callback(self.window, self.dropped)  # type: ignore[arg-type]  # its stub has the C signature
 
@@ -143,10 +149,10 @@ class Window:
         self.guard.run("Dialog", self._dialog)
         if self.session.history.dragging and not imgui.is_any_item_active():
             self.session.apply([Release()])
-        moving = self._moving()
-        if not moving and not self._canvas.unfinished and self._thumbnails.waiting:
+        better = self._canvas.unfinished and self.session.refining
+        if self.thumbnails.waiting and not better and self._resting():
             self.guard.run("Thumbnails", self._thumbnail)
-        if moving or self._canvas.unfinished or self._thumbnails.waiting or self.session.export or self._choosing:
+        if better or self.thumbnails.waiting or self.session.export or self._choosing:
             hello_imgui.request_refresh()
 
     def _dialog(self) -> Iterable[Intent]:
@@ -162,14 +168,29 @@ class Window:
         dialogs = self.session.dialogs
         return self._chooser is not None and bool(dialogs) and isinstance(dialogs[-1], ChooseFile)
 
-    def _moving(self) -> bool:
-        return self.session.history.dragging or self._hand.button is not None
+    def _resting(self) -> bool:
+        """Whether nobody is at work just now, so that there is time for finer things than a draft."""
+        io = imgui.get_io()
+        if any(
+            (*io.mouse_down, io.mouse_delta.x, io.mouse_delta.y, io.mouse_wheel, io.mouse_wheel_h, imgui.is_any_item_active())
+        ):
+            self._stirred = imgui.get_time()
+        return self.session.refining and imgui.get_time() - self._stirred > CALM_SECONDS
 
-    def _picture(self, size: tuple[int, int]) -> int:
-        return self._canvas.draw(self.session.scene, self.session.view, size, self._moving())
+    # What the viewport shows: `viewport.Picture`
+
+    def draw(self, size: tuple[int, int]) -> int:
+        session = self.session
+        texture = self._canvas.draw(session.scene, session.view, size, self._resting())
+        session.located(session.scene, self._canvas.region)
+        return texture
+
+    def shape_at(self, size: tuple[int, int], pixel: tuple[int, int]) -> int | None:
+        seen = self._canvas.pick(self.session.view.camera, size, pixel)
+        return None if seen is None else seen.shape
 
     def _thumbnail(self) -> Iterable[Intent]:
-        self._thumbnails.work()
+        self.thumbnails.work()
         return ()
 
     def _may_exit(self) -> bool:

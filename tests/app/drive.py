@@ -1,6 +1,7 @@
 """Runs the modeller's real window with a function that drives it through ImGui's test engine; a process of its own.
 
-``python drive.py MODULE:FUNCTION FOLDER [PRESET]`` calls ``FUNCTION(hands)`` and exits with 1 and the traceback where that fails.
+``python -m tests.app.drive MODULE:FUNCTION FOLDER [PRESET]`` calls ``FUNCTION(hands)``; where that fails it exits with 1 and the
+traceback.
 """
 
 from __future__ import annotations
@@ -18,6 +19,8 @@ from hqmodel.app.window import Window
 from hqmodel.files import Settings
 
 engine = imgui.test_engine
+# Small enough for a software renderer to be quick with.
+SIZE = 1024, 680
 
 
 class Hands:
@@ -86,7 +89,7 @@ def main(target: str, folder: Path, preset: Path | None = None) -> int:
 
     module, name = target.split(":")
     function = getattr(import_module(module), name)
-    session = Session(Settings.read())
+    session = Session(Settings.read().preferring(refining=False))  # drafts will do, and leave the time to the test
     if preset is not None:
         session.apply([Open(preset)])
     window = Window(session, native_dialogs=False)
@@ -106,6 +109,7 @@ def main(target: str, folder: Path, preset: Path | None = None) -> int:
         io = engine.get_io(test_engine)
         io.config_run_speed = engine.TestRunSpeed.fast
         io.config_log_to_tty = True
+        io.config_fixed_delta_time = 1 / 60  # a double click stays one on a machine that is busy
         test = engine.register_test(test_engine, "hqmodel", name)
         test.test_func = drive
         engine.queue_test(test_engine, test)
@@ -113,6 +117,7 @@ def main(target: str, folder: Path, preset: Path | None = None) -> int:
     window.params.use_imgui_test_engine = True
     window.params.callbacks.register_tests = register
     window.params.fps_idling.enable_idling = False
+    window.params.app_window_params.window_geometry.size = SIZE
     window.run()
     for failure in failures:
         print(failure, file=sys.stderr)

@@ -27,9 +27,7 @@ CAMERA = Camera((0.5, -0.2, 0.1), 6.0, 30.0, 20.0)
         (None, "", None),
     ],
 )
-def test_blenders_and_mayas_buttons_and_none_but_the_left_one(
-    button: Button | None, modifier: str, expected: Motion | None
-) -> None:
+def test_blenders_and_mayas_buttons_and_the_left_one_alone(button: Button | None, modifier: str, expected: Motion | None) -> None:
     assert motion(button, modifier) == expected
 
 
@@ -48,7 +46,7 @@ def test_orbiting_keeps_target_and_distance() -> None:
 def test_a_panned_point_stays_under_the_hand() -> None:
     camera = navigated(CAMERA, Pointer((0, 0), (40, 25), "right"), SIZE)
     before = CAMERA.project(CAMERA.target, SIZE)
-    assert np.allclose(camera.project(CAMERA.target, SIZE), before + [40, 25])
+    assert np.allclose(camera.project(CAMERA.target, SIZE), before + np.array([40, 25]))
 
 
 def test_the_wheel_zooms_to_the_cursor() -> None:

@@ -217,11 +217,11 @@ def test_a_damaged_file_is_told_of_and_nothing_is_lost(session: Session, tmp_pat
 
 def test_a_recent_file_that_has_gone_is_forgotten(session: Session, preset: Path) -> None:
     session.apply([Open(preset), New()])
-    assert session.settings.recent == (str(preset),)
+    assert list(session.settings.recent) == [str(preset)]
     preset.unlink()
     session.apply([Open(preset)])
     assert isinstance(session.dialogs[-1], Problem)
-    assert session.settings.recent == ()
+    assert list(session.settings.recent) == []
 
 
 def test_dialogs_are_a_stack(session: Session, tmp_path: Path) -> None:

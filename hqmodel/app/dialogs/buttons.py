@@ -25,7 +25,17 @@ def buttons(labels: Sequence[str], enabled: bool = True) -> str | None:
         imgui.end_disabled()
         if index == 0:
             imgui.set_item_default_focus()
-    if pressed is None and enabled and not imgui.is_any_item_active():
-        entered = imgui.is_key_pressed(imgui.Key.enter) or imgui.is_key_pressed(imgui.Key.keypad_enter)
-        pressed = labels[0] if entered else None
+    if pressed is None and enabled and entered() and untouched():
+        pressed = labels[0]
     return pressed
+
+
+def entered() -> bool:
+    """Whether Enter was pressed."""
+    return imgui.is_key_pressed(imgui.Key.enter) or imgui.is_key_pressed(imgui.Key.keypad_enter)
+
+
+def untouched() -> bool:
+    """Whether no control is at work, nor has just ended with this very key."""
+    context = imgui.get_current_context()
+    return context.active_id == 0 and context.active_id_previous_frame == 0

@@ -12,7 +12,7 @@ from ..asks import ChooseFile, Dialog
 from ..browse import Listing, listing
 from ..intents import Adjust, Answer, Intent
 from ..panels.status import ERROR, NOTICE
-from .buttons import buttons
+from .buttons import buttons, entered
 
 _SIZE = 34.0, 16.0
 _VERBS = {"open": "Open", "save": "Save", "export": "Choose"}
@@ -29,6 +29,7 @@ def draw(dialog: Dialog) -> list[Intent]:
     typed, name = imgui.input_text_with_hint("##name", "Name", dialog.name)
     if typed:
         chosen = replace(dialog, name=name, replacing=False)
+    at_once = at_once or (imgui.is_item_deactivated() and entered())
     problem = found.problem or _problem(dialog)
     if dialog.replacing:
         imgui.text_colored(NOTICE, f"{dialog.path.name} is there already. Replace it?")
@@ -38,7 +39,7 @@ def draw(dialog: Dialog) -> list[Intent]:
     pressed = buttons([verb, "Cancel"], enabled=not problem)
     if pressed == "Cancel":
         return [Answer()]
-    if chosen is None and (pressed == verb or at_once):
+    if chosen is None and (pressed == verb or (at_once and not problem)):
         return _taken(dialog)
     return [Adjust(chosen)] if chosen is not None else []
 

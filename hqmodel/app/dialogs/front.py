@@ -10,6 +10,7 @@ from ..asks import About, ChooseFile, Dialog, ExportAs, Exported, Problem, Short
 from ..intents import Answer, Ask, Intent
 from ..session import Session
 from . import about, chooser, exporting, problem, unsaved
+from .buttons import untouched
 
 _DRAWN: dict[type[Dialog], Callable[[Dialog], list[Intent]]] = {
     Unsaved: unsaved.draw,
@@ -36,7 +37,7 @@ def draw(session: Session) -> list[Intent]:
     if not imgui.begin_popup_modal(title, None, _FLAGS)[0]:
         return []
     intents = _DRAWN[type(dialog)](dialog)
-    if not intents and imgui.is_key_pressed(imgui.Key.escape) and not imgui.is_any_item_active():
+    if not intents and imgui.is_key_pressed(imgui.Key.escape) and untouched():
         intents = [Answer()]
     if any(isinstance(intent, (Answer, Ask)) for intent in intents):
         imgui.close_current_popup()

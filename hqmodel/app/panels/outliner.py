@@ -61,7 +61,7 @@ def _rows(session: Session, tree: Tree) -> list[tuple[int, int | None]]:
 
 def _tools(session: Session) -> list[Intent]:
     intents: list[Intent] = []
-    if imgui.button(icons.ICON_FA_PLUS + "##add"):
+    if imgui.button(icons.ICON_FA_PLUS + "###add"):
         imgui.open_popup("add shape")
     imgui.set_item_tooltip("Add a shape or a strip")
     if imgui.begin_popup("add shape"):

@@ -37,7 +37,7 @@ def summary(session: Session) -> str:
 
 def notice(session: Session) -> str:
     """What is unusual about the body: it is nowhere, or cut by a box; the box is named."""
-    box = session.region
+    box = session.shown_region
     if box.empty:
         return "Nothing to see: the body is empty"
     if not box.cut or session.scene.dimension == 2:

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from math import hypot
+from typing import Protocol
 
 from imgui_bundle import imgui
 
 from ..intents import Intent, Look, Select
 from ..navigation import Button, Pointer, navigated
-from ..picking import picked
 from ..session import Session
 
 # A press that moves no further than this, in pixels, is a click.
@@ -31,18 +30,28 @@ class Hand:
     travelled: float = 0.0
 
 
-def draw(session: Session, hand: Hand, picture: Callable[[tuple[int, int]], int]) -> list[Intent]:
-    """`picture` draws what is to be seen in that many pixels, and gives its texture."""
+class Picture(Protocol):
+    """What is to be seen in so many pixels."""
+
+    def draw(self, size: tuple[int, int]) -> int:
+        """Bring it up to date; its texture's name."""
+
+    def shape_at(self, size: tuple[int, int], pixel: tuple[int, int]) -> int | None:
+        """The shape that a pixel shows."""
+
+
+def draw(session: Session, hand: Hand, picture: Picture) -> list[Intent]:
+    """The picture, in as many pixels as there is room for."""
     room, scale = imgui.get_content_region_avail(), imgui.get_io().display_framebuffer_scale
     points = max(1, int(room.x)), max(1, int(room.y))
     session.size = max(1, round(points[0] * scale.x)), max(1, round(points[1] * scale.y))
     corner = imgui.get_cursor_screen_pos()
-    imgui.image(imgui.ImTextureRef(picture(session.size)), points, (0, 1), (1, 0))
+    imgui.image(imgui.ImTextureRef(picture.draw(session.size)), points, (0, 1), (1, 0))
     imgui.set_cursor_screen_pos(corner)
     imgui.invisible_button("view", points, _ANY | imgui.ButtonFlags_.allow_overlap)
     imgui.set_item_key_owner(imgui.Key.mouse_wheel_y)
     imgui.set_item_key_owner(imgui.Key.mouse_wheel_x)
-    intents = _clicked(session, hand, corner, points)
+    intents = _clicked(session, hand, corner, picture)
     moved = navigated(session.view.camera, _pointer(hand, corner), points)
     if moved is not session.view.camera:
         intents.append(Look(moved))
@@ -61,7 +70,7 @@ def _pointer(hand: Hand, corner: imgui.ImVec2) -> Pointer:
     return Pointer(position, moved, hand.button, modifier, wheel)
 
 
-def _clicked(session: Session, hand: Hand, corner: imgui.ImVec2, points: tuple[int, int]) -> list[Intent]:
+def _clicked(session: Session, hand: Hand, corner: imgui.ImVec2, picture: Picture) -> list[Intent]:
     """Follow the button that is down; the shape under a click that went nowhere is selected."""
     io = imgui.get_io()
     if imgui.is_item_activated():
@@ -75,11 +84,9 @@ def _clicked(session: Session, hand: Hand, corner: imgui.ImVec2, points: tuple[i
     button, hand.button = hand.button, None
     if button != "left" or hand.travelled > STILL:
         return []
-    pixel = io.mouse_pos.x - corner.x, io.mouse_pos.y - corner.y
-    found = picked(session.scene, session.region, session.view.camera, pixel, points)
-    if found is None:
-        return [Select(None, add=io.key_ctrl)]
-    return [Select(found[0], add=io.key_ctrl or io.key_shift)]
+    scale = io.display_framebuffer_scale
+    pixel = int((io.mouse_pos.x - corner.x) * scale.x), int((io.mouse_pos.y - corner.y) * scale.y)
+    return [Select(picture.shape_at(session.size, pixel), add=io.key_ctrl or io.key_shift)]
 
 
 def _caption(session: Session, corner: imgui.ImVec2) -> None:

@@ -1,0 +1,116 @@
+"""The real window, driven by ImGui's test engine from inside and by xdotool from outside."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import TypeVar
+
+import pytest
+
+from hqmodel import files
+from hqmodel.app.view import restored
+from hqmodel.edit import new_scene
+from hqmodel.model import Camera
+
+T = TypeVar("T")
+ROOT = Path(__file__).parents[2]
+SCENARIOS = re.findall(r"^def (\w+)\(hands: Hands\) -> None:", (Path(__file__).parent / "scenarios.py").read_text(), re.MULTILINE)
+SECONDS = 240
+
+
+def surroundings(display: str, folder: Path) -> dict[str, str]:
+    """The window's environment: its settings and all that it writes stay in the test's folder, Mesa draws."""
+    folders = {f"XDG_{name}_HOME": str(folder / name.lower()) for name in ("CONFIG", "STATE", "CACHE", "DATA")}
+    paths = os.pathsep.join([str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])])
+    return {**os.environ, **folders, "HOME": str(folder), "DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1", "PYTHONPATH": paths}
+
+
+def test_there_are_scenarios() -> None:
+    assert len(SCENARIOS) >= 8
+
+
+@pytest.mark.parametrize("name", SCENARIOS)
+def test_scenario(name: str, display: str, tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "tests.app.drive", f"tests.app.scenarios:{name}", str(tmp_path)]
+    environment = surroundings(display, tmp_path)
+    ended = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=SECONDS)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+
+
+def test_without_a_display_it_says_so_in_one_sentence(tmp_path: Path) -> None:
+    environment = {**surroundings("", tmp_path), "WAYLAND_DISPLAY": ""}
+    code = "from hqmodel.app import NoDisplay, run\ntry:\n    run()\nexcept NoDisplay as error:\n    print(error)"
+    ended = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, timeout=SECONDS)
+    assert ended.stderr == ""
+    assert len(ended.stdout.splitlines()) == 1
+    assert "display" in ended.stdout
+    assert "hqmodel export" in ended.stdout
+
+
+class Outside:
+    """The window as somebody at the machine has it: a process, a title, a mouse and a keyboard."""
+
+    def __init__(self, display: str, folder: Path, preset: Path) -> None:
+        self.environment = surroundings(display, folder)
+        code = f"from pathlib import Path; from hqmodel.app import run; run(Path({str(preset)!r}))"
+        self.process = subprocess.Popen([sys.executable, "-c", code], env=self.environment, cwd=folder)
+        self.window = self.until(lambda: self.tool("search", "--onlyvisible", "--name", " - hqmodel$")).split()[0]
+        self.tool("windowmove", self.window, "0", "0")
+        self.tool("windowfocus", "--sync", self.window)
+
+    def tool(self, *arguments: str) -> str:
+        """What xdotool says; empty where it finds nothing."""
+        command = ["xdotool", *arguments]
+        return subprocess.run(command, env=self.environment, capture_output=True, text=True, timeout=SECONDS).stdout.strip()
+
+    def title(self) -> str:
+        return self.tool("getwindowname", self.window)
+
+    def until(self, condition: Callable[[], T]) -> T:
+        """What the condition gives as soon as it gives something."""
+        deadline = time.monotonic() + SECONDS
+        while time.monotonic() < deadline:
+            assert self.process.poll() is None, "the window has closed"
+            found = condition()
+            if found:
+                return found
+            time.sleep(0.1)
+        raise AssertionError(f"waited {SECONDS} seconds in vain")
+
+
+def test_from_outside_a_drag_turns_the_view_and_keys_work(display: str, tmp_path: Path) -> None:
+    assert shutil.which("xdotool"), "this test needs xdotool: install it (on Debian and Ubuntu: xdotool)"
+    preset = tmp_path / "outside.json"
+    scene = new_scene()
+    files.save(scene, preset)
+    window = Outside(display, tmp_path, preset)
+    try:
+        assert window.title() == "outside - hqmodel"
+        window.tool("key", "ctrl+d")
+        window.until(lambda: window.title() == "outside* - hqmodel")
+        window.tool("key", "ctrl+z")
+        window.until(lambda: window.title() == "outside - hqmodel")
+        window.tool("mousemove", "600", "400", "mousedown", "1")
+        for x in range(600, 700, 20):
+            window.tool("mousemove", str(x), "400")
+            time.sleep(0.1)
+        window.tool("mouseup", "1")
+        window.tool("key", "ctrl+s")
+        window.until(lambda: files.load(preset).view)
+        view = restored(files.load(preset).view)
+        assert view is not None
+        assert view.camera.azimuth != Camera().azimuth
+        assert view.camera.elevation == Camera().elevation
+        assert files.load(preset).shapes == scene.shapes
+        window.tool("key", "ctrl+q")
+        assert window.process.wait(SECONDS) == 0
+    finally:
+        window.process.kill()
+        window.process.wait()
