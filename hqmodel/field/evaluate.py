@@ -54,6 +54,18 @@ def log_gradient(terms: Terms, points: ArrayLike) -> tuple[Array, Array]:
     return both[..., 0], both[..., 1:]
 
 
+def near_linear_gradient(terms: Terms, points: ArrayLike) -> tuple[Array, Array]:
+    """The near-linear field (...,) and its gradient (..., 3) at points (..., 3).
+
+    Their quotient is a Newton step that neither creeps from outside nor leaps from inside.
+    """
+    ratio, slope = log_gradient(terms, points)
+    hard, steep = _typical(terms)
+    rate = np.maximum(1.0 - ratio / hard, 1e-300) ** (1.0 / steep - 1.0) / (hard * steep)
+    with np.errstate(over="ignore"):
+        return near_linear(terms, ratio), np.clip(slope * rate[..., None], -HUGE, HUGE)
+
+
 def curvature(terms: Terms, points: ArrayLike) -> Curvature:
     """Curvatures at points (..., 3) of the level set through each (eq. 26; Goldman 2005, CAGD 22, sections 4.1 and 4.2).
 
@@ -82,12 +94,6 @@ def near_linear(terms: Terms, ratio: Array) -> Array:
     """
     hard, steep = _typical(terms)
     return 1.0 - np.maximum(1.0 - ratio / hard, 1e-300) ** (1.0 / steep)
-
-
-def near_linear_slope(terms: Terms, ratio: Array) -> Array:
-    """The derivative of `near_linear` by L, (...,)."""
-    hard, steep = _typical(terms)
-    return np.maximum(1.0 - ratio / hard, 1e-300) ** (1.0 / steep - 1.0) / (hard * steep)
 
 
 def _typical(terms: Terms) -> tuple[float, float]:

@@ -14,20 +14,20 @@ from numpy.typing import NDArray
 from hqmodel.field import (
     Region,
     Terms,
-    log_gradient,
     log_ratio,
     mirror_axes,
     mixed_colors,
     near_linear,
-    near_linear_slope,
+    near_linear_gradient,
     region,
     relevant_terms,
 )
 from hqmodel.model import Scene
 
 from .cull import TILE, Blocks, blocks_of, tiles
-from .extract import NODES, Patch, extract
+from .extract import AT_NODE, NODES, Patch, extract
 from .grid import Grid, make_grid
+from .manifold import parted
 from .measure import largest_distance
 from .mesh import Array, Mesh, MeshError, Triangles, reflected
 from .refine import place_vertices
@@ -60,6 +60,7 @@ def polygonize(scene: Scene, resolution: int = 256, progress: Progress | None = 
     mesh = _welded(pieces)
     for axis in mirrored:
         mesh = reflected(mesh, axis)
+    mesh = parted(mesh)
     tell(1.0, "Done")
     return mesh
 
@@ -111,16 +112,32 @@ def _piece(scene: Scene, terms: Terms, grid: Grid, tile: Blocks, shading: bool) 
     patch = extract(blocks, _samples(local, grid, blocks), 1.0 / _step(local, grid))
     keys, first, inverse = np.unique(_keys(patch.edge, grid), return_index=True, return_inverse=True)
     faces = inverse.reshape(-1).astype(np.int32)[patch.faces]
+    faces = faces[np.all(faces != np.roll(faces, 1, axis=1), axis=1)]  # edges without length close up at the ends of cuts
     patch = Patch(patch.edge[first], patch.place[first], patch.ends[first], faces)
     vertices = place_vertices(local, grid, patch)
-    ratio, slope = log_gradient(local, vertices)
+    slope = near_linear_gradient(local, vertices)[1]
     size = np.linalg.norm(slope, axis=1)
-    error = largest_distance(local, vertices, faces, size * near_linear_slope(local, ratio), grid.cell) if len(faces) else 0.0
+    error = largest_distance(local, vertices, _off_cuts(faces, vertices, grid), size, grid.cell)
     if not shading:
         return _Piece(keys, vertices, faces, None, None, error)
-    normals = (slope / -np.maximum(size, 1e-300)[:, None]).astype(np.float32)
+    normals = _with_caps(slope / -np.maximum(size, 1e-200)[:, None], vertices, patch.edge[:, 3] == AT_NODE, grid)
     colors = np.rint(mixed_colors(scene, local, vertices) * 255).astype(np.uint8)
     return _Piece(keys, vertices, faces, normals, colors, error)
+
+
+def _off_cuts(faces: Triangles, vertices: Array, grid: Grid) -> Triangles:
+    """The faces that are no part of a cap."""
+    for axis, plane, _ in grid.cuts:
+        faces = faces[~np.all(vertices[:, axis][faces] == plane, axis=1)]
+    return faces
+
+
+def _with_caps(normals: Array, vertices: Array, within: NDArray[np.bool_], grid: Grid) -> NDArray[np.float32]:
+    """Normals (V, 3) with those of the caps: alone `within` a cap, halfway between the two on its rim."""
+    normals = np.where(within[:, None], 0.0, normals)
+    for axis, plane, side in grid.cuts:
+        normals[:, axis] += np.where(vertices[:, axis] == plane, side, 0.0)
+    return (normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-200)).astype(np.float32)
 
 
 def _step(terms: Terms, grid: Grid) -> float:
@@ -146,7 +163,7 @@ def _samples(terms: Terms, grid: Grid, blocks: Blocks) -> Array:
 def _keys(edge: NDArray[np.int64], grid: Grid) -> NDArray[np.int64]:
     """One number for each grid edge."""
     _, ny, nz = (len(nodes) for nodes in grid.nodes)
-    return ((edge[:, 0] * ny + edge[:, 1]) * nz + edge[:, 2]) * 4 + edge[:, 3]
+    return ((edge[:, 0] * ny + edge[:, 1]) * nz + edge[:, 2]) * (AT_NODE + 1) + edge[:, 3]
 
 
 def _welded(pieces: list[_Piece]) -> Mesh:

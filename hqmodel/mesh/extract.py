@@ -17,6 +17,7 @@ from .grid import BLOCK
 from .mesh import Array, Triangles
 
 NODES = BLOCK + 1
+INSIDE, AT_NODE = 3, 4
 # Blocks in one call; float32 coordinates of the packed array stay finer than a thousandth of a cell.
 _PACK = 360
 # The interpolated position along an edge only names the edge. Samples are kept this far off the level and below the largest
@@ -29,8 +30,9 @@ _ON_NODE = 1e-3
 class Patch:
     """Triangles and the edges their vertices lie on.
 
-    `edge` (V, 4): the lower node's number along each axis, and the axis the edge runs along, 3 for a point inside the cell at
-    that node. `place` (V, 3): where marching cubes put it, in cells from that node. `ends` (V, 2): the samples at both nodes.
+    `edge` (V, 4): the lower node's number along each axis, and the axis the edge runs along; `INSIDE` for a point inside the
+    cell at that node, `AT_NODE` for the node itself, where an edge without length leaves a cut. `place` (V, 3): where marching
+    cubes put it, in cells from that node. `ends` (V, 2): the samples at both nodes.
     """
 
     edge: NDArray[np.int64]
@@ -68,11 +70,14 @@ def _named(blocks: Blocks, samples: Array, found: Array, faces: Triangles) -> Pa
     nearest = np.rint(found)
     between = np.abs(found - nearest) > _ON_NODE
     node = np.where(between, np.floor(found), nearest).astype(np.int64)
-    axis = np.where(np.count_nonzero(between, axis=1) == 1, np.argmax(between, axis=1), 3)
+    axis = np.where(np.count_nonzero(between, axis=1) == 1, np.argmax(between, axis=1), INSIDE)
     block, local = node[:, 0] // NODES, node.copy()
     local[:, 0] %= NODES
     far = local.copy()
-    rows = np.flatnonzero(axis < 3)
+    rows = np.flatnonzero(axis < INSIDE)
     far[rows, axis[rows]] += 1
     ends = np.stack([samples[(block, *end.T)] for end in (local, far)], axis=1)
+    leaves = (axis < INSIDE) & np.any(np.isneginf(ends), axis=1)
+    local = np.where((leaves & np.isneginf(ends[:, 0]))[:, None], far, local)
+    axis[leaves] = AT_NODE
     return Patch(np.column_stack([blocks[block] + local, axis]), found - node, ends, faces)

@@ -35,6 +35,17 @@ class Grid:
         x, y, z = ((len(nodes) - 1) // BLOCK for nodes in self.nodes)
         return x, y, z
 
+    @property
+    def cuts(self) -> list[tuple[int, float, float]]:
+        """The planes that cut the body: axis, coordinate, and the side that is cut away."""
+        planes = []
+        for axis, (nodes, outside) in enumerate(zip(self.nodes, self.outside, strict=True)):
+            if outside[0]:
+                planes.append((axis, float(nodes[0]), -1.0))
+            if outside[-1]:
+                planes.append((axis, float(nodes[-1]), 1.0))
+        return planes
+
     def corners(self, blocks: NDArray[np.int64], size: int) -> tuple[Array, Array]:
         """Corners (n, 3) of cubes of `size` cells, cut off at the grid's end, whose first nodes are `blocks` (n, 3)."""
         return self.points(blocks), self.points(blocks + size)

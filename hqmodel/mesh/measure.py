@@ -18,6 +18,8 @@ def largest_distance(terms: Terms, vertices: Array, faces: Triangles, slopes: Ar
     `slopes` (V,) is how fast the near-linear field changes at each vertex. With it all faces are judged to first order; those
     that look worst, some hundredth of them, are followed to the surface.
     """
+    if not len(faces):
+        return 0.0
     middles = vertices[faces].mean(axis=1)
     estimate = np.abs(near_linear(terms, log_ratio(terms, middles))) / np.maximum(slopes[faces].min(axis=1), 1e-300)
     count = min(len(middles), 100 + len(middles) // 100)

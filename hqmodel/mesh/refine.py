@@ -5,15 +5,17 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hqmodel.field import Terms, log_gradient, log_ratio, near_linear, near_linear_slope
+from hqmodel.field import Terms, log_ratio, near_linear, near_linear_gradient
 
-from .extract import Patch
+from .extract import INSIDE, Patch
 from .grid import Grid
 from .mesh import Array
 
 # A vertex nearer to a node than this share of the edge is moved off it and back onto the surface sideways, so that the
 # vertices around a node that lies almost on the surface stay apart.
 _CROWDED = 0.01
+# Where that fails, at a kink or a tip, it stays on its edge, this share of it away from the node.
+_APART = 1e-3
 # The width of a root's bracket, as a share of its edge.
 _PRECISE = 1e-8
 
@@ -24,25 +26,46 @@ def place_vertices(terms: Terms, grid: Grid, patch: Patch) -> Array:
     node, axis = patch.edge[:, :3], patch.edge[:, 3]
     start = grid.points(node)
     along = node.copy()
-    rows = np.flatnonzero(axis < 3)
-    along[rows, axis[rows]] += 1
+    free = np.flatnonzero(axis < INSIDE)
+    along[free, axis[free]] += 1
     end = grid.points(along)
-    points = start + (end - start) * 0.5
-    free = np.flatnonzero((axis < 3) & np.all(np.isfinite(patch.ends), axis=1) & np.any(start != end, axis=1))
+    points = start.copy()
     share = _roots(terms, start[free], end[free], patch.ends[free])
     points[free] = start[free] + (end[free] - start[free]) * share[:, None]
-    crowded = free[(share < _CROWDED) | (share > 1 - _CROWDED)]
+    near = (share < _CROWDED) | (share > 1 - _CROWDED)
+    crowded = free[near]
     if crowded.size:
         fixed = _held(grid, patch.edge[crowded])
-        apart = np.clip(share[np.isin(free, crowded, assume_unique=True)], _CROWDED, 1 - _CROWDED)[:, None]
-        aside = start[crowded] + (end[crowded] - start[crowded]) * apart
-        points[crowded] = _projected(terms, aside, points[crowded], fixed, grid.cell)
-    centre = np.flatnonzero(axis == 3)
+        way = end[crowded] - start[crowded]
+        aside, beside = (start[crowded] + way * np.clip(share[near], d, 1 - d)[:, None] for d in (_CROWDED, _APART))
+        points[crowded] = _projected(terms, aside, beside, fixed, grid.cell)
+    centre = np.flatnonzero(axis == INSIDE)
     if centre.size:
-        far = grid.points(node[centre] + 1)
-        inner = start[centre] + (far - start[centre]) * patch.place[centre]
-        points[centre] = _projected(terms, inner, inner, np.zeros((centre.size, 3), dtype=bool), grid.cell)
+        across = grid.points(node[centre] + 1) - start[centre]
+        inner = start[centre] + across * patch.place[centre]
+        on_cap = np.broadcast_to(np.any(across == 0, axis=1, keepdims=True), across.shape)
+        points[centre] = _projected(terms, inner, inner, on_cap, grid.cell)
+        strayed = centre[~on_cap[:, 0] & np.all(points[centre] == inner, axis=1)]
+        points[strayed] = _nearest_root(terms, points[strayed], start[strayed], grid.points(node[strayed] + 1))
     return points
+
+
+def _nearest_root(terms: Terms, points: Array, low: Array, high: Array) -> Array:
+    """A point of the surface near each of points (n, 3) in the cells from low to high, which the surface passes through.
+
+    Looked for between the point and the nearest node, of a lattice of 5 along each side, on the other side of the surface.
+    """
+    steps = np.linspace(0.0, 1.0, 5)
+    shares = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
+    lattice = low[:, None] + (high - low)[:, None] * shares
+    values, here = near_linear(terms, log_ratio(terms, lattice)), near_linear(terms, log_ratio(terms, points))
+    apart = np.where((values > 0) == (here > 0)[:, None], np.inf, np.linalg.norm(lattice - points[:, None], axis=2))
+    nearest = np.argmin(apart, axis=1)
+    rows = np.arange(len(points))
+    other, found = lattice[rows, nearest], np.isfinite(apart[rows, nearest])
+    share = np.zeros(len(points))
+    share[found] = _roots(terms, points[found], other[found], np.column_stack([here, values[rows, nearest]])[found])
+    return points + (other - points) * share[:, None]
 
 
 def _held(grid: Grid, edge: NDArray[np.int64]) -> NDArray[np.bool_]:
@@ -107,16 +130,14 @@ def to_surface(
 ) -> tuple[Array, Array]:
     """Points (n, 3) near the surface after Newton steps of at most `stride` towards it, and each last step's length (n,).
 
-    The steps are taken in the near-linear field, so that they neither creep from outside nor leap from inside.
+    Coordinates that are `fixed`, (n, 3), stay.
     """
     moved = points
     for _ in range(rounds):
-        ratio, slope = log_gradient(terms, moved)
-        slope = slope * near_linear_slope(terms, ratio)[:, None]
+        linear, slope = near_linear_gradient(terms, moved)
         if fixed is not None:
             slope = np.where(fixed, 0.0, slope)
-        square = np.maximum(np.sum(slope * slope, axis=1), 1e-300)
-        step = np.clip(near_linear(terms, ratio) / square, -1e200, 1e200)[:, None] * slope
-        length = np.linalg.norm(step, axis=1)
-        moved = moved - step * np.minimum(1.0, stride / np.maximum(length, 1e-300))[:, None]
-    return moved, length
+        size = np.maximum(np.linalg.norm(slope, axis=1), 1e-200)
+        distance = np.clip(linear / size, -stride, stride)
+        moved = moved - (distance / size)[:, None] * slope
+    return moved, np.abs(distance)

@@ -1,0 +1,217 @@
+"""Meshes: the reference volumes, watertight whatever comes, mirrored to the bit, caps, tips, thin parts."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.random import default_rng
+from numpy.typing import NDArray
+
+from hqmodel.field import Terms, first_hits, log_ratio, near_linear_gradient, region
+from hqmodel.mesh import Mesh, MeshError, polygonize, report
+from hqmodel.mesh import cull as culling
+from hqmodel.model import Scene, Shape, Strip, Transform
+
+from ..cases import NAMES, case
+from ..gpu.scenes import random_scene
+
+X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+
+
+def distance(scene: Scene, mesh: Mesh) -> NDArray[np.float64]:
+    """Of each vertex from the surface, to first order."""
+    linear, slope = near_linear_gradient(Terms.of(scene), mesh.vertices)
+    result: NDArray[np.float64] = np.abs(linear) / np.linalg.norm(slope, axis=1)
+    return result
+
+
+def sound(mesh: Mesh) -> None:
+    """Closed, two triangles to every edge in opposite directions, no vertex twice or unused, no face without area."""
+    assert report(mesh)["watertight"]
+    assert len(np.unique(mesh.vertices, axis=0)) == len(mesh.vertices)
+    assert np.array_equal(np.unique(mesh.faces), np.arange(len(mesh.vertices)))
+    a, b, c = (mesh.vertices[mesh.faces[:, i]] for i in range(3))
+    longest = np.maximum.reduce([np.linalg.norm(p - q, axis=1) for p, q in ((a, b), (b, c), (c, a))])
+    height = np.linalg.norm(np.cross(b - a, c - a), axis=1) / longest
+    assert np.min(height) > 1e-8 * np.max(np.ptp(mesh.vertices, axis=0))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_reference(name: str) -> None:
+    here = case(name)
+    mesh = polygonize(here.scene, 160)
+    sound(mesh)
+    measured = report(mesh)
+    tolerance = (0.02 if name == "astroid" else 0.004) + here.truth["volume_tolerance"]
+    assert abs(measured["volume"] / here.truth["volume"] - 1) < tolerance
+    side = float(np.max(np.ptp(mesh.vertices, axis=0)))
+    assert np.max(distance(here.scene, mesh)) < 1e-5 * side
+    assert mesh.normals is not None
+    np.testing.assert_allclose(np.linalg.norm(mesh.normals, axis=1), 1, atol=1e-5)
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_random_scenes(seed: int) -> None:
+    rng = default_rng(100 + seed)
+    scene = random_scene(rng, shapes=1 + seed % 5, exponents=(0.5, 0.8, 1.0, 1.3, 2.0, 4.0, 12.0, 60.0, 400.0))
+    if scene.bounds is None and not region(scene).bounded:
+        scene = scene.changed(bounds=((-2.0, -2.0, -2.0), (2.0, 2.0, 2.0)))
+    if region(scene).empty:
+        with pytest.raises(MeshError, match="no surface"):
+            polygonize(scene, 48)
+        return
+    mesh = polygonize(scene, 48)
+    sound(mesh)
+    assert report(mesh)["volume"] > 0
+
+
+@pytest.mark.parametrize("name", ["mirrored", "two_holes", "sphere", "astroid", "cuboctahedron"])
+def test_a_mirrored_scene_is_its_own_image_to_the_bit(name: str) -> None:
+    mesh = polygonize(case(name).scene, 60)
+    for axis in (0, 1) if name == "mirrored" else (0, 1, 2):
+        image = mesh.vertices.copy()
+        image[:, axis] *= -1
+        order, mirrored = np.lexsort(mesh.vertices.T), np.lexsort((image + 0.0).T)
+        assert np.array_equal(mesh.vertices[order], (image + 0.0)[mirrored])
+        same = np.empty(len(order), dtype=np.int64)
+        same[mirrored] = order
+        flipped = {tuple(np.roll(face, -int(np.argmin(face)))) for face in same[mesh.faces][:, ::-1]}
+        assert flipped == {tuple(np.roll(face, -int(np.argmin(face)))) for face in mesh.faces}
+
+
+def test_the_same_scene_gives_the_same_bytes() -> None:
+    first, second = polygonize(case("composite_0").scene, 80), polygonize(case("composite_0").scene, 80)
+    assert first.vertices.tobytes() == second.vertices.tobytes()
+    assert first.faces.tobytes() == second.faces.tobytes()
+
+
+@pytest.mark.parametrize("name", ["composite_1", "convex_0", "truncated_tetrahedron"])
+def test_tiles_leave_no_trace(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same triangles at any tile size, as a set."""
+    meshes = []
+    for tile in (16, 64, 512):
+        monkeypatch.setattr(culling, "TILE", tile)
+        monkeypatch.setattr("hqmodel.mesh.build.TILE", tile)
+        meshes.append(polygonize(case(name).scene, 70))
+    corners = [np.sort(mesh.vertices[mesh.faces].round(9).reshape(-1, 9), axis=0) for mesh in meshes]
+    assert corners[0].shape == corners[1].shape == corners[2].shape
+    np.testing.assert_allclose(corners[0], corners[1], atol=2e-9)
+    np.testing.assert_allclose(corners[0], corners[2], atol=2e-9)
+
+
+def test_nothing_is_missed_that_a_dense_look_finds() -> None:
+    """Every change of sign between neighbouring nodes of the grid has its vertex."""
+    scene = case("composite_2").scene
+    mesh = polygonize(scene, 48)
+    where = region(scene)
+    step = np.max(where.size) / 48
+    counts = np.maximum(8, np.ceil(where.size / step - 1e-9)).astype(int)
+    nodes = [low + (np.arange(n + 2) - 0.5) * (size / n) for low, size, n in zip(where.low, where.size, counts, strict=True)]
+    inside = log_ratio(Terms.of(scene), np.stack(np.meshgrid(*nodes, indexing="ij"), axis=-1)) > 0
+    crossings = sum(int(np.count_nonzero(np.diff(inside, axis=axis))) for axis in range(3))
+    assert len(mesh.vertices) >= crossings
+    assert len(mesh.vertices) - crossings < 0.002 * crossings
+
+
+def test_caps_are_flat_and_closed() -> None:
+    pipe = Scene(shapes=(Shape(strips=(Strip(normal=X), Strip(normal=Y))),), bounds=((-2, -2, -1), (2, 2, 1.5)))
+    mesh = polygonize(pipe, 90)
+    sound(mesh)
+    measured = report(mesh)
+    assert measured["volume"] == pytest.approx(np.pi * 2.5, rel=2e-3)
+    assert measured["bounds"][0][2] == -1.0
+    assert measured["bounds"][1][2] == 1.5
+    assert measured["euler_number"] == 2
+    assert np.count_nonzero(mesh.vertices[:, 2] == 1.5) > 100
+
+
+def test_bounds_that_slice_a_ball_in_half() -> None:
+    mesh = polygonize(case("sphere").scene.changed(bounds=((-2, -2, 0), (2, 2, 2))), 100)
+    sound(mesh)
+    assert report(mesh)["volume"] == pytest.approx(2 / 3 * np.pi, rel=1e-3)
+
+
+def test_a_flat_shape_becomes_a_plate() -> None:
+    disc = Scene(dimension=2, shapes=(Shape(strips=(Strip(normal=X), Strip(normal=Y))),))
+    mesh = polygonize(disc, 100)
+    sound(mesh)
+    thickness = float(np.ptp(mesh.vertices[:, 2]))
+    assert thickness == pytest.approx(0.04, rel=0.05)
+    assert report(mesh)["volume"] == pytest.approx(np.pi * thickness, rel=2e-3)
+
+
+def test_cusps_end_in_their_tips() -> None:
+    strips = tuple(Strip(normal=n, gamma=0.5) for n in (X, Y, Z))
+    mesh = polygonize(Scene(shapes=(Shape(strips=strips),)), 80)
+    sound(mesh)
+    np.testing.assert_allclose(report(mesh)["bounds"], [[-1, -1, -1], [1, 1, 1]], atol=1e-6)
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.0123, 0.5])
+def test_a_plate_thinner_than_a_cell_is_whole(shift: float) -> None:
+    strips = Strip(normal=X, gamma=60.0), Strip(normal=Y, gamma=60.0), Strip(normal=Z, gamma=60.0, half_width=0.004)
+    moved = Transform(translation=(0.0, 0.0, shift))
+    mesh = polygonize(Scene(shapes=(Shape(transform=moved, strips=strips),)), 64)
+    sound(mesh)
+    assert report(mesh)["volume"] == pytest.approx(0.15978768902205062 / 5, rel=0.02)
+
+
+def test_several_bodies_and_holes_are_kept() -> None:
+    ball = tuple(Strip(normal=n) for n in (X, Y, Z))
+    pair = [Shape(hardness=20.0, transform=Transform(translation=(d, 0.0, 0.0)), strips=ball) for d in (-1.5, 1.5)]
+    assert report(polygonize(Scene(shapes=tuple(pair)), 64))["euler_number"] == 4
+    assert report(polygonize(case("two_holes").scene, 64))["euler_number"] == -4
+
+
+def test_the_stated_error_is_what_rays_find() -> None:
+    """Rays through the middles of faces, along their normals, meet the surface no farther than the stated error."""
+    for name in ("dodecahedron", "convex_1", "two_holes"):
+        scene = case(name).scene
+        mesh = polygonize(scene, 64)
+        corners = mesh.vertices[mesh.faces]
+        across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        normals = across / np.linalg.norm(across, axis=1, keepdims=True)
+        cell = float(np.max(np.ptp(mesh.vertices, axis=0))) / 64
+        terms = Terms.of(scene)
+        middles = corners.mean(axis=1)
+        free = log_ratio(terms, middles + cell * normals) < 0
+        hits = first_hits(terms, region(scene, terms), (middles + cell * normals)[free], -normals[free])
+        found = np.abs(hits - cell)
+        assert mesh.surface_error is not None
+        assert 0.3 * np.nanmax(found) < mesh.surface_error < 1.5 * np.nanmax(found)
+
+
+@pytest.mark.parametrize(
+    ("scene", "message"),
+    [
+        (Scene(shapes=()), "no surface: there is no visible shape"),
+        (case("sphere").scene.changed(level=9.0), "no surface: the field is below its level everywhere"),
+        (Scene(shapes=(Shape(strips=(Strip(normal=X), Strip(normal=Y))),)), "bounds: expected a box to cut the body by"),
+    ],
+)
+def test_what_has_no_mesh_says_so(scene: Scene, message: str) -> None:
+    with pytest.raises(MeshError, match=message):
+        polygonize(scene, 32)
+
+
+@pytest.mark.parametrize("resolution", [0, 3, 2049])
+def test_resolution_out_of_range(resolution: int) -> None:
+    with pytest.raises(MeshError, match="resolution: expected a whole number from 4 to 2048"):
+        polygonize(case("sphere").scene, resolution)
+
+
+def test_progress_rises_and_its_exception_ends_the_work() -> None:
+    heard: list[float] = []
+    polygonize(case("sphere").scene, 64, lambda share, doing: heard.append(share))
+    assert heard == sorted(heard)
+    assert heard[-1] == 1.0
+
+    class Stop(Exception):
+        pass
+
+    def stop(share: float, doing: str) -> None:
+        if share > 0:
+            raise Stop
+
+    with pytest.raises(Stop):
+        polygonize(case("composite_0").scene, 128, stop)
