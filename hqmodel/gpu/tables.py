@@ -66,7 +66,7 @@ def cast(ctx: moderngl.Context, memory: SceneMemory, where: Region, origins: Arr
         d = d / np.max(np.abs(d), axis=1, keepdims=True)
         d = d / np.linalg.norm(d, axis=1, keepdims=True)
         enter, leave = box_interval(where.low, where.high, o, d)
-    rays = np.flatnonzero(np.all(np.isfinite(o) & np.isfinite(d), axis=1) & (enter <= leave) & ~where.empty)
+    rays = np.flatnonzero(np.all(np.isfinite(o) & np.isfinite(d), axis=1) & (enter <= leave) & (not where.empty))
     for start in range(0, len(rays), _AT_ONCE):
         some = rays[start : start + _AT_ONCE]
         begin = o[some] + enter[some, None] * d[some]
