@@ -5,7 +5,6 @@
 VENV ?= .venv
 BIN := $(VENV)/bin
 PYTHONS := python3 python3.14 python3.13 python3.12 python3.11
-DEMO ?= pebble
 
 # OpenGL, off screen too, and what a window on X11 needs; the second list is for the tests' own display.
 LIBRARIES := libegl1 libgl1 libgl1-mesa-dri libglx-mesa0 libopengl0 libx11-6 libx11-xcb1 libxcursor1 libxext6 libxi6 \
@@ -23,13 +22,14 @@ run: system-run $(VENV)/.installed
 	@status=3; \
 	if [ -n "$$DISPLAY$$WAYLAND_DISPLAY" ] || [ "$$(uname)" = Darwin ]; then $(BIN)/hqmodel; status=$$?; fi; \
 	if [ $$status -ne 3 ]; then exit $$status; fi; \
-	echo "There is no display to open a window on: rendering and exporting the preset '$(DEMO)' into out/ instead."; \
+	echo "There is no display to open a window on: rendering and exporting a built-in preset into out/ instead."; \
 	$(MAKE) --no-print-directory demo
 
 demo:
 	@mkdir -p out
-	@$(BIN)/hqmodel render $(DEMO) -o out/$(DEMO).png
-	@$(BIN)/hqmodel export $(DEMO) -o out/$(DEMO).glb -o out/$(DEMO).obj
+	@demo=$${DEMO:-$$($(BIN)/hqmodel presets | head -n 1 | cut -d ' ' -f 1)}; \
+	$(BIN)/hqmodel render "$$demo" -o "out/$$demo.png" && \
+	$(BIN)/hqmodel export "$$demo" -o "out/$$demo.glb" -o "out/$$demo.obj"
 
 test: system-test $(VENV)/.installed-for-tests
 	$(BIN)/ruff check .
