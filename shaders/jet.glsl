@@ -9,6 +9,16 @@ float log_weight(Term term, vec3 x)
     return term_value(term, x) + log(max(term.hardness, 1e-30));
 }
 
+// log2 of (sum |h|^g)^(1/g) over the group that begins at `row`.
+float group_size(Strip lead, int row, vec3 x)
+{
+#ifdef GROUPS
+    if (lead.members > 1.0)
+        return group_exponent(lead, row, x) / lead.outer;
+#endif
+    return log2_of(abs(strip_function(lead, x)));
+}
+
 struct Touch {
     vec3 normal; // outwards, of length 1; 0 where there is no slope
     float strip; // the row of the strip with the largest share in the slope; -1 for none
@@ -28,15 +38,13 @@ Touch touch_at(vec3 x)
         while (row < end) {
             Strip lead = strip_row(row);
             int members = int(lead.members);
-            float size = members == 1 ? 0.0 : group_exponent(lead, row, x) / lead.outer;
+            float size = group_size(lead, row, x);
             for (int i = 0; i < members; ++i) {
                 Strip strip = lead;
                 if (i > 0)
                     strip = strip_row(row + i);
                 float h = strip_function(strip, x);
                 float u = log2_of(abs(h));
-                if (members == 1)
-                    size = u;
                 // G S^(G/g - 1) |h|^(g - 1), S^(1/g) = 2^size
                 float share = weight + log2(lead.outer) + (lead.outer - lead.inner) * size + (lead.inner - 1.0) * u;
                 float pull = share + log2(max(length(strip.normal), 1e-30));
@@ -78,6 +86,7 @@ vec3 mixed_color(vec3 x)
     return total / max(sum.y, 1e-30);
 }
 
+#ifdef CURVATURE
 // First and second derivatives of one term's H: slope, then the second ones by xx, yy, zz and xy, yz, zx.
 struct Bend {
     vec3 slope;
@@ -99,7 +108,7 @@ Bend term_bend(Term term, vec3 x)
     while (row < end) {
         Strip lead = strip_row(row);
         int members = int(lead.members);
-        float size = group_exponent(lead, row, x) / lead.outer;
+        float size = group_size(lead, row, x);
         float value = lead.sigma * exp2(min(lead.outer * size, TOP));
         vec3 lean = vec3(0.0);
         for (int i = 0; i < members; ++i) {
@@ -146,3 +155,4 @@ float gaussian_curvature(vec3 x)
     vec3 adjugate_mixed = m.zxy * m.yzx - m * d.zxy;
     return dot(n * n, adjugate_straight) + 2.0 * dot(n * n.yzx, adjugate_mixed);
 }
+#endif

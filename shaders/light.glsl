@@ -3,7 +3,6 @@
 uniform vec3 key_direction; // towards it
 uniform float key_radius;   // tangent of half the angle that it fills; 0 for a point
 uniform int sample_number;
-uniform vec2 sky_salts;     // one for each ray to the sky
 
 const vec3 KEY_COLOR = vec3(2.55, 2.42, 2.25);
 const vec3 SKY_COLOR = vec3(0.80, 0.86, 0.95);
@@ -15,6 +14,9 @@ vec3 sky(vec3 direction)
 }
 
 // Two numbers in 0 .. 1 a pixel, spread evenly over its samples (Roberts' R2 sequence, shifted at each pixel by a hash).
+const float KEY_SALT = 0.17;
+const float SKY_SALT = 0.71;
+
 vec2 spread(vec2 pixel, float salt)
 {
     vec3 p = fract(vec3(pixel.xyx) * vec3(0.1031, 0.1030, 0.0973) + salt);

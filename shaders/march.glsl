@@ -10,22 +10,20 @@
 // LONE is defined where the body is one elliptic shape, CONVEX where that is convex.
 uniform float lone_constant;  // its H at the surface
 uniform float least_exponent; // the least of its exponents
-uniform int root_steps;       // at most so many to refine a root
 
 const float SEARCHING = 0.0;
-const float CERTIFYING = 1.0; // a root is known at `far`; is it the first?
+const float BRACKETED = 1.0;  // `far` is in the body
 const float HIT = 2.0;
 const float INSIDE = 3.0;     // the ray began in the body
 const float MISS = 4.0;
 
 const float SHORTEST = 4e-6;  // lengths in the unit frame
-const float NEIGHBOUR = 5e-5; // a root that lies so little before another need not be told from it
 const int NEWTON_STEPS = 64;
 
 struct March {
     float t;     // no surface before this
     float dt;    // the segment to look at next
-    float far;   // no surface after this, or a root
+    float far;   // where the search ends: out of reach, or in the body
     float phase;
 };
 
@@ -130,71 +128,54 @@ void march_convex(Ray ray, inout March march)
     march.phase = HIT;
 }
 #else
-// Squeezed into -1 .. 1, nearly straight near 0: what a false-position step can use when L is of any size.
+// Squeezed into -1 .. 1, nearly straight near 0: what a false position can be guessed from when L is of any size.
 float squeezed(float ratio)
 {
     return ratio / (1.0 + abs(ratio));
 }
 
-// A root between `outside`, where L is `low` <= 0, and `inside`, where it is `high` > 0 (false position, Illinois' way, with
-// bisection mixed in).
-float root_between(Ray ray, float outside, float inside, float low, float high)
-{
-    low = min(squeezed(low), -1e-9);
-    high = squeezed(high);
-    for (int i = 0; i < root_steps && inside - outside > 4e-7 * (1.0 + outside); ++i) {
-        float share = i % 4 == 3 ? 0.5 : clamp(low / (low - high), 0.01, 0.99);
-        float middle = outside + share * (inside - outside);
-        float value = squeezed(log_ratio(ray.origin + middle * ray.direction));
-        if (abs(value) < 1e-7)
-            return middle;
-        if (value > 0.0) {
-            inside = middle;
-            high = value;
-            low *= 0.5;
-        } else {
-            outside = middle;
-            low = value;
-            high *= 0.5;
-        }
-    }
-    return inside;
-}
-
-// One look at the segment ahead.
+// One look at the segment ahead: it is left behind as far as the line above L is negative. Once L is seen positive at its end
+// the root is between the two and the next look goes a little past where a false position puts it.
 void march_on(Ray ray, inout March march)
 {
-    bool certifying = march.phase == CERTIFYING;
-    float end = certifying ? march.far - NEIGHBOUR : march.far;
-    if (march.t >= end) {
-        march.t = march.far;
-        march.phase = certifying ? HIT : MISS;
+    float dt = min(march.dt, march.far - march.t);
+    if (dt <= 0.0) {
+        march.phase = march.phase == BRACKETED ? HIT : MISS;
         return;
     }
-    float dt = min(march.dt, end - march.t);
     Span ahead = look_ahead(ray.origin + march.t * ray.direction, dt * ray.direction);
-    bool shortest = dt <= SHORTEST;
     if (march.t == 0.0 && ahead.ends.x > 0.0) {
         march.phase = INSIDE;
-    } else if (max(ahead.line.x, ahead.line.y) < 0.0) {
+        return;
+    }
+    if (max(ahead.line.x, ahead.line.y) < 0.0) {
         march.t += dt;
         march.dt = 2.0 * dt;
-    } else if (ahead.line.x >= 0.0 && !shortest) {
-        march.dt = 0.35 * dt;
-    } else {
-        float next = march.t + dt;
-        if (ahead.ends.y > 0.0 && (!certifying || next < end)) {
+        return;
+    }
+    bool shortest = dt <= SHORTEST;
+    bool enters = ahead.ends.y > 0.0;
+    float low = squeezed(min(ahead.ends.x, -1e-9));
+    float guess = dt * low / (low - squeezed(ahead.ends.y));
+    if (enters) {
+        march.far = march.t + dt;
+        march.phase = BRACKETED;
 #ifdef ANY_HIT
+        march.phase = HIT;
+        return;
+#endif
+        if (shortest) {
+            march.t += guess;
             march.phase = HIT;
             return;
-#endif
-            march.far = root_between(ray, march.t, next, ahead.ends.x, ahead.ends.y);
-            march.phase = CERTIFYING;
         }
-        float passed = shortest ? dt : 0.999 * dt * ahead.line.x / (ahead.line.x - ahead.line.y);
-        march.t += passed;
-        march.dt = max(shortest ? 2.0 * dt : 0.6 * (dt - passed), SHORTEST);
     }
+    float passed = shortest ? dt : ahead.line.x < 0.0 ? 0.999 * dt * ahead.line.x / (ahead.line.x - ahead.line.y) : 0.0;
+    float next = ahead.line.x < 0.0 ? 0.6 * (dt - passed) : 0.35 * dt;
+    if (enters && guess > passed)
+        next = min(next, 1.1 * (guess - passed) + 0.25 * SHORTEST);
+    march.t += passed;
+    march.dt = shortest ? 2.0 * dt : max(next, 0.99 * SHORTEST);
 }
 #endif
 

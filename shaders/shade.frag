@@ -13,15 +13,15 @@ uniform sampler2D surface_normal;
 uniform sampler2D surface_color;
 uniform sampler2D key_state;   // where rays towards the key light ended
 uniform sampler2D sky_state;   // and rays all round
-uniform sampler2D sky_state_2;
-uniform int sky_rays;          // how many of these there are; 0 draws without
+uniform int sky_rays;          // whether there are such rays
 uniform vec2 target_origin;    // the tile's lower left in the target
 uniform int mode;
 uniform vec2 depth_range;
 uniform vec3 fill_direction;
 uniform vec3 rim_direction;
 
-out vec4 color;
+layout(location = 0) out vec4 color;
+layout(location = 1) out vec4 guide; // what resolve.frag smooths along: the normal, shorter on the ground, and the distance
 
 bool meets_body(sampler2D state, ivec2 at)
 {
@@ -34,10 +34,7 @@ vec3 light_around(vec3 normal, vec3 own, vec2 pixel, ivec2 at)
 {
     if (sky_rays == 0)
         return open_light(normal) * 0.82;
-    vec3 bounce = 0.30 * own;
-    vec3 first = meets_body(sky_state, at) ? bounce : sky(sky_ray(normal, spread(pixel, sky_salts.x)));
-    vec3 second = meets_body(sky_state_2, at) ? bounce : sky(sky_ray(normal, spread(pixel, sky_salts.y)));
-    return 0.5 * (first + second);
+    return meets_body(sky_state, at) ? 0.30 * own : sky(sky_ray(normal, spread(pixel, SKY_SALT)));
 }
 
 // How much darker than in the open the ground is.
@@ -61,6 +58,7 @@ void main()
     vec2 place = 2.0 * pixel / picture_size - 1.0;
     vec3 behind = mode == CLAY ? backdrop(sight.direction, place) : mode == DEPTH ? vec3(0.0) : vec3(0.035);
     color = vec4(behind, 1.0);
+    guide = vec4(normal.xyz * (normal.w == 2.0 ? 0.6 : 1.0), position.w);
     if (normal.w == 0.0)
         return;
     vec3 to_eye = -sight.direction;

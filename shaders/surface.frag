@@ -4,7 +4,6 @@
 #include "jet.glsl"
 #include "march.glsl"
 
-const int CURVATURE = 2;
 const int STRIPS = 3;
 
 uniform sampler2D state;
@@ -39,10 +38,12 @@ vec3 body_color(vec3 x, float strip)
 {
     if (mode == STRIPS)
         return strip < 0.0 ? vec3(0.5) : strip_row(int(strip)).tint;
-    if (mode == CURVATURE)
-        // a hair aside: at h = 0 itself a second derivative is not had from powers of h
-        return curvature_color(gaussian_curvature(x + vec3(1.3e-6, 1.7e-6, 1.1e-6)));
+#ifdef CURVATURE
+    // a hair aside: at h = 0 itself a second derivative is not had from powers of h
+    return curvature_color(gaussian_curvature(x + vec3(1.3e-6, 1.7e-6, 1.1e-6)));
+#else
     return mixed_color(x);
+#endif
 }
 
 void main()
@@ -51,8 +52,8 @@ void main()
     float enter;
     Ray ray = enter_region(sight.origin, sight.direction, enter);
     vec4 march = texelFetch(state, ivec2(gl_FragCoord.xy), 0);
-    bool hit = march.w == HIT || march.w == INSIDE || march.w == CERTIFYING;
-    float distance = enter + (march.w == CERTIFYING ? march.z : march.x);
+    bool hit = march.w == HIT || march.w == INSIDE || march.w == BRACKETED;
+    float distance = enter + (march.w == BRACKETED ? march.z : march.x);
 
     float to_ground = (ground_z - sight.origin.z) / sight.direction.z;
     if (ground != 0 && sight.direction.z < -1e-4 && to_ground > 0.0 && !(hit && distance <= to_ground)) {

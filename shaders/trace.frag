@@ -16,9 +16,6 @@ uniform sampler2D ray_directions; // xyz
 uniform sampler2D surface_position; // xyz, w: distance from the eye
 uniform sampler2D surface_normal;   // xyz, w: what it is
 #endif
-#ifdef SKY_RAYS
-uniform int sky_number; // which of a point's rays to the sky
-#endif
 
 out vec4 march_state;
 
@@ -40,11 +37,11 @@ Ray this_ray(ivec2 at)
         return Ray(position, normal.xyz, -1.0);
     vec2 pixel = gl_FragCoord.xy + tile_origin;
 #ifdef KEY_RAYS
-    vec3 direction = key_ray(spread(pixel, 0.17));
+    vec3 direction = key_ray(spread(pixel, KEY_SALT));
     if (dot(direction, normal.xyz) <= 0.0)
         return Ray(position, direction, -1.0);
 #else
-    vec3 direction = sky_ray(normal.xyz, spread(pixel, sky_salts[sky_number]));
+    vec3 direction = sky_ray(normal.xyz, spread(pixel, SKY_SALT));
 #endif
     return enter_region(position + LIFT * normal.xyz, direction, enter);
 #endif

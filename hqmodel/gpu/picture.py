@@ -8,7 +8,7 @@ from math import ceil
 import moderngl
 
 from .memory import SceneMemory
-from .screen import Target, shared_pass
+from .screen import Rectangle, Target, shared_pass
 from .studio import Shot, Studio, tiles
 
 # Samples a pixel of a finished picture: with light and shadow, and without.
@@ -23,8 +23,8 @@ class Picture:
     def __init__(self, ctx: moderngl.Context, size: tuple[int, int]) -> None:
         self.ctx, self.size = ctx, size
         self.shown = Target(ctx, size, dtype="f1")
-        self._sums = Target(ctx, size)
-        self._draft = Target(ctx, size, dtype="f2")
+        self._sums = Target(ctx, size, count=2)
+        self._draft = Target(ctx, size, count=2, dtype="f2")
         self._coarse = 1
 
     def clear(self) -> None:
@@ -35,7 +35,7 @@ class Picture:
         """Draw all of it at once, in pixels `coarse` times as large."""
         small = Shot(shot.mode, (ceil(self.size[0] / coarse), ceil(self.size[1] / coarse)), shot.uniforms)
         for tile in tiles(small.size, studio.side):
-            studio.draw(memory, small, tile, self._draft, None)
+            studio.draw(memory, small, tile, self._draft, ())
         self._coarse = coarse
 
     def refined(self, studio: Studio, memory: SceneMemory, shot: Shot, samples: int) -> Iterator[None]:
@@ -43,20 +43,22 @@ class Picture:
         every = tiles(self.size, studio.side)
         if self._coarse > 1:
             for tile in every:
-                studio.draw(memory, shot, tile, self._sums, None)
+                studio.draw(memory, shot, tile, self._sums, ())
+                self.resolve(shot, tile)
                 yield
         for first in range(0, samples, BATCH):
             for tile in every:
-                for sample in range(first, min(first + BATCH, samples)):
-                    studio.draw(memory, shot, tile, self._sums, sample)
+                studio.draw(memory, shot, tile, self._sums, range(first, min(first + BATCH, samples)))
+                self.resolve(shot, tile)
                 yield
 
-    def resolve(self, shot: Shot) -> None:
-        """Bring `shown` up to date."""
+    def resolve(self, shot: Shot, tile: Rectangle) -> None:
+        """Bring `shown` up to date there."""
         share = tuple(ceil(side / self._coarse) / side for side in self.size)
-        uniforms = {"filmic": int(shot.lit), "draft_share": share}
-        inputs = {"samples": self._sums.texture, "draft": self._draft.texture}
-        shared_pass(self.ctx, "resolve.frag").draw(self.shown, self.shown.whole, uniforms, inputs)
+        samples, guides = self._sums.textures
+        inputs = {"samples": samples, "guides": guides, "draft": self._draft.texture}
+        uniforms = {"lit": int(shot.lit), "draft_share": share}
+        shared_pass(self.ctx, "resolve.frag").draw(self.shown, tile, uniforms, inputs)
 
     def release(self) -> None:
         for target in (self.shown, self._sums, self._draft):

@@ -78,7 +78,6 @@ class Preview:
                 self._begin(shot)
             if not quick:
                 self._refine(started + budget)
-            self._picture.resolve(shot)
         return self._left
 
     def pixels(self) -> NDArray[np.uint8]:
@@ -118,6 +117,7 @@ class Preview:
         started = perf_counter()
         self._picture.clear()
         self._picture.draft(studio, self._memory, shot, self._coarse)
+        self._picture.resolve(shot, self._picture.shown.whole)
         self.ctx.finish()
         seconds = perf_counter() - started
         self._work = self._picture.refined(studio, self._memory, shot, samples_of(shot))

@@ -72,7 +72,7 @@ def _drawn(
             for step, _ in enumerate(picture.refined(studio, memory, part, samples)):
                 ctx.finish()
                 tell((number + min(1.0, (step + 1) / steps)) / len(parts), "Drawing")
-            picture.resolve(part)
+            picture.resolve(part, picture.shown.whole)
             drawn = np.frombuffer(picture.shown.texture.read(), dtype=np.uint8)
         result[bottom : bottom + height, left : left + width] = drawn.reshape(height, width, 4)
         picture.release()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,8 +14,8 @@ from .sight import KEY_RADIUS
 from .tracing import trace
 
 MODES = ("clay", "normals", "curvature", "strips", "depth")
-# For each ray from a surface point to the sky, what sets its directions apart from the others' (light.glsl).
-_SKY_SALTS = (0.37, 0.71)
+# Samples of light for each look through the camera.
+_LIGHTS = 2
 # Steps of the two-dimensional golden ratio (Roberts' R2 sequence): even at any count.
 _STEP = (0.7548776662466927, 0.5698402909980532)
 
@@ -40,45 +41,51 @@ class Studio:
     def __init__(self, ctx: moderngl.Context, side: int) -> None:
         self.ctx, self.side = ctx, side
         self._surface = Target(ctx, (side, side), count=3)
-        self._states = [Target(ctx, (side, side)) for _ in range(5)]
+        self._states = [Target(ctx, (side, side)) for _ in range(4)]
 
-    def draw(self, memory: SceneMemory, shot: Shot, tile: Rectangle, target: Target, sample: int | None) -> None:
+    def draw(self, memory: SceneMemory, shot: Shot, tile: Rectangle, target: Target, samples: Sequence[int]) -> None:
         """Draw a tile (left, bottom, width, height) of the target, which shows the picture from shot.origin on.
 
-        What comes after sample 0 is added to what is there. `sample` numbers the place in each pixel and the directions of light; None stands for a draft: the pixel's middle,
-        hard shadows and an even sky.
+        Samples after number 0 are added to what is there. No samples stand for a draft: the pixel's middle, hard shadows and
+        an even sky.
         """
-        number = 0 if sample is None else sample
+        here = (0, 0, *tile[2:])
         uniforms = {
             **shot.uniforms,
             "mode": MODES.index(shot.mode),
             "picture_size": shot.size,
             "tile_origin": (tile[0] + shot.origin[0], tile[1] + shot.origin[1]),
             "target_origin": tile[:2],
-            "jitter": tuple((0.5 + number * step) % 1.0 for step in _STEP),
-            "sample_number": number,
-            "key_radius": 0.0 if sample is None else KEY_RADIUS,
-            "sky_salts": _SKY_SALTS,
-            "sky_rays": 0 if sample is None or not shot.lit else len(_SKY_SALTS),
+            "key_radius": KEY_RADIUS if samples else 0.0,
+            "sky_rays": int(bool(samples) and shot.lit),
         }
-        here = (0, 0, *tile[2:])
+        for sample in samples or (0,):
+            uniforms["sample_number"] = sample
+            if sample % _LIGHTS == 0 or sample == samples[0]:
+                view = sample // _LIGHTS
+                uniforms["jitter"] = tuple((0.5 + view * step) % 1.0 for step in _STEP)
+                self._look(memory, here, uniforms)
+            inputs = self._surface_inputs()
+            if shot.lit:
+                inputs["key_state"] = self._trace("key", 1, memory, here, uniforms)
+            if uniforms["sky_rays"]:
+                inputs["sky_state"] = self._trace("sky", 2, memory, here, uniforms)
+            shared_pass(self.ctx, "shade.frag").draw(target, tile, uniforms, inputs, memory, adding=sample > 0)
+
+    def _look(self, memory: SceneMemory, here: Rectangle, uniforms: dict[str, Any]) -> None:
+        """Find the surfaces that the camera sees."""
         state = self._trace("camera", 0, memory, here, uniforms)
-        shared_pass(self.ctx, "surface.frag", ("GROUPS", "HYPERBOLIC")).draw(self._surface, here, uniforms, {"state": state}, memory)
-        inputs = self._surface_inputs()
-        if shot.lit:
-            inputs["key_state"] = self._trace("key", 1, memory, here, uniforms)
-        if uniforms["sky_rays"]:
-            for number, name in enumerate(("sky_state", "sky_state_2")):
-                inputs[name] = self._trace("sky", 2 + number, memory, here, {**uniforms, "sky_number": number})
-        shared_pass(self.ctx, "shade.frag").draw(target, tile, uniforms, inputs, memory, adding=number > 0)
+        defines = tuple(name for name in ("GROUPS", "HYPERBOLIC") if name in memory.defines)
+        if uniforms["mode"] == MODES.index("curvature"):
+            defines += ("CURVATURE",)
+        shared_pass(self.ctx, "surface.frag", defines).draw(self._surface, here, uniforms, {"state": state}, memory)
 
     def seen(self, memory: SceneMemory, shot: Shot, pixel: tuple[int, int]) -> bytes:
         """Position, distance, normal, kind, colour and strip's row (surface.frag) at one pixel, counted from the lower left."""
         uniforms = {**shot.uniforms, "mode": MODES.index(shot.mode), "picture_size": shot.size, "tile_origin": pixel}
         uniforms["jitter"] = (0.5, 0.5)
         here = (0, 0, 1, 1)
-        state = self._trace("camera", 0, memory, here, uniforms)
-        shared_pass(self.ctx, "surface.frag", ("GROUPS", "HYPERBOLIC")).draw(self._surface, here, uniforms, {"state": state}, memory)
+        self._look(memory, here, uniforms)
         framebuffer = self._surface.framebuffer
         return b"".join(framebuffer.read(here, 4, attachment, dtype="f4") for attachment in range(3))
 

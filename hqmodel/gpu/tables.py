@@ -21,7 +21,7 @@ _WIDTH = 64
 # Rays in one draw.
 _AT_ONCE = 4096
 # The phases of march.glsl.
-_SEARCHING, _CERTIFYING, _INSIDE, _MISS = 0.0, 1.0, 3.0, 4.0
+_SEARCHING, _BRACKETED, _INSIDE, _MISS = 0.0, 1.0, 3.0, 4.0
 
 
 def field_values(ctx: moderngl.Context, scene: Scene, points: ArrayLike) -> tuple[Array, Array]:
@@ -85,7 +85,7 @@ def _cast(ctx: moderngl.Context, memory: SceneMemory, begin: Array, unit: Array,
         t, _, far, phase = read(done.texture)[: len(begin)].T
     for each in (origins, directions, *states):
         each.release()
-    t = np.where(phase == _CERTIFYING, far, np.where(phase == _INSIDE, 0.0, t))
+    t = np.where(phase == _BRACKETED, far, np.where(phase == _INSIDE, 0.0, t))
     return np.where((phase == _MISS) | (phase == _SEARCHING), np.nan, t) * scale
 
 

@@ -37,10 +37,10 @@ def trace(
 ) -> tuple[Target, Target]:
     """Search along one ray of one of `KINDS` a pixel; returns the two targets, first the one that holds the result."""
     done, spare = states
-    steps, root_steps = _limits(memory.rows)
+    steps = _steps(memory.rows)
     tracing = shared_pass(ctx, "trace.frag", (*KINDS[kind], *memory.defines))
     for taken in range(0, MOST_STEPS, steps):
-        values = {**uniforms, "fresh": int(taken == 0), "steps": steps, "root_steps": root_steps}
+        values = {**uniforms, "fresh": int(taken == 0), "steps": steps}
         tracing.draw(spare, rectangle, values, {**inputs, "state": done.texture}, memory)
         done, spare = spare, done
         if not _any_pending(ctx, done, spare, rectangle):
@@ -55,8 +55,6 @@ def _any_pending(ctx: moderngl.Context, states: Target, scratch: Target, rectang
     return bool(query.samples)
 
 
-def _limits(rows: int) -> tuple[int, int]:
-    """Steps a draw, and steps in a root's refinement, for a scene of so many rows (terms and strips)."""
-    walk = 2 * max(rows, 1)
-    root_steps = min(40, max(4, TURNS // (2 * walk)))
-    return max(1, (TURNS - root_steps * walk) // (2 * walk)), root_steps
+def _steps(rows: int) -> int:
+    """Steps a draw may take in a scene of so many rows (terms and strips): each walks them all, some twice."""
+    return max(1, TURNS // (2 * max(rows, 1)))
