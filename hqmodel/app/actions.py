@@ -168,12 +168,12 @@ def _set_mode(mode: str, session: Session) -> None:
 
 
 def _look(name: str, session: Session) -> None:
-    session.view = session.view.moved(session.view.camera.looking(name))
+    session.look(session.view.camera.looking(name))
 
 
 def _switch_projection(session: Session) -> None:
     camera = session.view.camera
-    session.view = session.view.moved(replace(camera, orthographic=not camera.orthographic))
+    session.look(replace(camera, orthographic=not camera.orthographic))
 
 
 def _refining(session: Session) -> bool:

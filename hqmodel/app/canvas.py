@@ -28,16 +28,16 @@ class Canvas:
         """Where the body is that the picture shows."""
         return self._preview.region
 
-    def draw(self, scene: Scene, view: View, size: tuple[int, int], resting: bool) -> int:
-        """Bring the picture up to date, by a draft at first and finer while at rest; its texture's name."""
+    def draw(self, scene: Scene, view: View, size: tuple[int, int], budget: float) -> int:
+        """Bring the picture up to date, by a draft at first and finer in `budget` seconds, if any; its texture's name."""
         if scene is not self._scene:
             self._preview.show(scene)
             self._scene, self._drawn = scene, None
         if self._drawn != (view, size):
             self._preview.draw(view.camera, size, view.mode, quick=True)
             self._drawn, self.unfinished = (view, size), True
-        elif resting and self.unfinished:
-            self.unfinished = self._preview.draw(view.camera, size, view.mode)
+        elif budget and self.unfinished:
+            self.unfinished = self._preview.draw(view.camera, size, view.mode, budget=budget)
         return int(self._preview.texture.glo)
 
     def pick(self, camera: Camera, size: tuple[int, int], pixel: tuple[int, int]) -> Seen | None:

@@ -67,6 +67,13 @@ class Look:
 
 
 @dataclass(frozen=True)
+class Resize:
+    """The viewport has so many pixels now."""
+
+    size: tuple[int, int]
+
+
+@dataclass(frozen=True)
 class Do:
     """An action of the table, by its id."""
 
@@ -94,4 +101,4 @@ class Adjust:
     dialog: Dialog
 
 
-Intent = Grab | Put | Release | Reset | Edit | Select | Look | Do | Ask | Answer | Adjust | Departure
+Intent = Grab | Put | Release | Reset | Edit | Select | Look | Resize | Do | Ask | Answer | Adjust | Departure

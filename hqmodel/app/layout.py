@@ -16,18 +16,14 @@ _PLACES = {
     "Presets": "LeftLowerSpace",
     "Properties": "RightSpace",
     "Scene": "RightSpace",
-    "Slice": "BottomSpace",
 }
 _SPLITS = (
-    ("MainDockSpace", "BottomSpace", imgui.Dir.down, 0.055),
     ("MainDockSpace", "LeftSpace", imgui.Dir.left, 0.2),
     ("MainDockSpace", "RightSpace", imgui.Dir.right, 0.34),
     ("LeftSpace", "LeftLowerSpace", imgui.Dir.down, 0.55),
 )
 _PLAIN = imgui.internal.DockNodeFlagsPrivate_.no_window_menu_button | imgui.internal.DockNodeFlagsPrivate_.no_close_button
 _BARE = imgui.internal.DockNodeFlagsPrivate_.no_tab_bar
-# Panels without a tab or a cross.
-_FIXED = ("Viewport", "Slice")
 
 
 def docking(panels: Mapping[str, Callable[[], None]]) -> hello_imgui.DockingParams:
@@ -39,7 +35,7 @@ def docking(panels: Mapping[str, Callable[[], None]]) -> hello_imgui.DockingPara
 
 
 def _window(name: str, draw: Callable[[], None]) -> hello_imgui.DockableWindow:
-    if name not in _FIXED:
+    if name != "Viewport":
         return hello_imgui.DockableWindow(name, _PLACES[name], draw)
     window = hello_imgui.DockableWindow(name, _PLACES[name], partial(_bare, name, draw), can_be_closed_=False)
     window.call_begin_end = False
@@ -47,15 +43,13 @@ def _window(name: str, draw: Callable[[], None]) -> hello_imgui.DockableWindow:
 
 
 def _bare(name: str, draw: Callable[[], None]) -> None:
-    """A window that is all content: no tab, and for the viewport no margin."""
+    """A window that is all content: without a tab, a cross or a margin."""
     kind = imgui.WindowClass()
     kind.dock_node_flags_override_set = _BARE
     imgui.set_next_window_class(kind)
-    if name == "Viewport":
-        imgui.push_style_var(imgui.StyleVar_.window_padding, (0.0, 0.0))
+    imgui.push_style_var(imgui.StyleVar_.window_padding, (0.0, 0.0))
     shown, _ = imgui.begin(name, None, imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse)
-    if name == "Viewport":
-        imgui.pop_style_var()
+    imgui.pop_style_var()
     if shown:
         draw()
     imgui.end()

@@ -10,13 +10,13 @@ from pathlib import Path
 
 from hqmodel import edit, files
 from hqmodel.field import Region, region
-from hqmodel.model import Scene
+from hqmodel.model import Camera, Scene
 
 from . import actions, answers
 from .asks import ChooseFile, Departure, Dialog, ExportSettings, New, Open, Problem, Quit, Unsaved
 from .document import Document
 from .export import ExportJob
-from .intents import Adjust, Answer, Ask, Do, Edit, Grab, Intent, Location, Look, Put, Release, Reset, Select
+from .intents import Adjust, Answer, Ask, Do, Edit, Grab, Intent, Location, Look, Put, Release, Reset, Resize, Select
 from .selection import Selection
 from .view import View, restored
 
@@ -31,6 +31,7 @@ class Session:
     selection: Selection
     view: View
     _region: tuple[Scene, Region]
+    _untouched: bool
 
     def __init__(self, settings: files.Settings, wake: Callable[[], None] = lambda: None) -> None:
         self.settings = settings
@@ -107,7 +108,9 @@ class Session:
             case Select(shape, strip, add):
                 self.selection = self.selection.picked(shape, strip, add)
             case Look(camera):
-                self.view = self.view.moved(camera)
+                self.look(camera)
+            case Resize(size):
+                self._resize(size)
             case Do(action):
                 actions.perform(self, action)
             case Ask(dialog):
@@ -255,13 +258,26 @@ class Session:
         self.view = view or View()
         if view is None:
             self.frame(self.region)
+        self._untouched = view is None
 
     # Views and exports
+
+    def look(self, camera: Camera) -> None:
+        """See it from elsewhere."""
+        self.view = self.view.moved(camera)
+        self._untouched = False
 
     def frame(self, box: Region) -> None:
         """Look at all of this box."""
         aspect = self.size[0] / max(self.size[1], 1)
-        self.view = self.view.moved(self.view.camera.framing(box.low, box.high, aspect))
+        self.look(self.view.camera.framing(box.low, box.high, aspect))
+
+    def _resize(self, size: tuple[int, int]) -> None:
+        """As long as nobody has moved the camera, all of the body stays in view."""
+        self.size = size
+        if self._untouched:
+            self.frame(self.region)
+            self._untouched = True
 
     def start_export(self, settings: ExportSettings) -> None:
         """Begin an export in the background."""

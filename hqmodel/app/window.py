@@ -27,9 +27,11 @@ from .thumbnails import Thumbnails
 IDLE_SECONDS = 10.0
 # It goes on drawing for so long after the last event, for tooltips to appear.
 AWAKE_SECONDS = 0.7
-# The preview is refined when the hand has been still for so long.
-CALM_SECONDS = 0.15
+# The preview is refined when the hand has been still for so long; how long, and what it may then take of each frame.
+CALM = ((0.15, 0.03), (1.5, 0.12))
 SIZE = 1280, 800
+# The height of the bar along the bottom, in heights of the font.
+SLICE_BAR = 2.6
 
 
 class Window:
@@ -80,7 +82,10 @@ class Window:
         inner.show_menu_bar, inner.show_menu_app, inner.show_menu_view = True, False, False
         inner.show_status_bar, inner.show_status_fps, inner.remember_theme = True, False, False
         self._callbacks(params.callbacks)
-        params.docking_params = layout.docking({name: self._guarded(name, partial(self._draw, name)) for name in self.panels})
+        draws = {name: self._guarded(name, partial(self._draw, name)) for name in self.panels}
+        bar = hello_imgui.EdgeToolbarOptions(size_em=SLICE_BAR, window_padding_em=(0.7, 0.4))
+        params.callbacks.add_edge_toolbar(hello_imgui.EdgeToolbarType.bottom, draws.pop("Slice"), bar)
+        params.docking_params = layout.docking(draws)
         return params
 
     def _callbacks(self, callbacks: hello_imgui.RunnerCallbacks) -> None:
@@ -150,7 +155,7 @@ class Window:
         if self.session.history.dragging and not imgui.is_any_item_active():
             self.session.apply([Release()])
         better = self._canvas.unfinished and self.session.refining
-        if self.thumbnails.waiting and not better and self._resting():
+        if self.thumbnails.waiting and not better and self._spare():
             self.guard.run("Thumbnails", self._thumbnail)
         if better or self.thumbnails.waiting or self.session.export or self._choosing:
             hello_imgui.request_refresh()
@@ -168,20 +173,19 @@ class Window:
         dialogs = self.session.dialogs
         return self._chooser is not None and bool(dialogs) and isinstance(dialogs[-1], ChooseFile)
 
-    def _resting(self) -> bool:
-        """Whether nobody is at work just now, so that there is time for finer things than a draft."""
+    def _spare(self) -> float:
+        """The seconds that finer things than a draft may take of this frame: none while somebody is at work."""
         io = imgui.get_io()
-        if any(
-            (*io.mouse_down, io.mouse_delta.x, io.mouse_delta.y, io.mouse_wheel, io.mouse_wheel_h, imgui.is_any_item_active())
-        ):
+        moved = io.mouse_delta.x, io.mouse_delta.y, io.mouse_wheel, io.mouse_wheel_h
+        if any(moved) or any(io.mouse_down) or imgui.is_any_item_active():
             self._stirred = imgui.get_time()
-        return self.session.refining and imgui.get_time() - self._stirred > CALM_SECONDS
+        return max((seconds for still, seconds in CALM if imgui.get_time() - self._stirred > still), default=0.0)
 
     # What the viewport shows: `viewport.Picture`
 
     def draw(self, size: tuple[int, int]) -> int:
         session = self.session
-        texture = self._canvas.draw(session.scene, session.view, size, self._resting())
+        texture = self._canvas.draw(session.scene, session.view, size, self._spare() if session.refining else 0.0)
         session.located(session.scene, self._canvas.region)
         return texture
 

@@ -20,7 +20,7 @@ from hqmodel.files import Settings
 
 engine = imgui.test_engine
 # Small enough for a software renderer to be quick with.
-SIZE = 1024, 680
+SIZE = 880, 600
 
 
 class Hands:

@@ -108,7 +108,8 @@ def every_field_has_a_control(hands: Hands) -> None:
     typed(hands, PROPERTIES, {f"shapes[1].strips[2].{name}": value for name, value in strip.items()})
     hands.click(f"{PROPERTIES}Hyperbolic (-)##shapes[1].strips[2].sign")
     assert get(hands.session.scene, "shapes[1].strips[2].sign") == -1
-    typed(hands, "//Slice/", {"slice": 0.25})
+    bar = next(window.name for window in imgui.get_current_context().windows if window.name.startswith("##Bottom"))
+    typed(hands, f"//{bar}/", {"slice": 0.25})
     hands.ctx.window_focus("//Scene")
     hands.settle()
     typed(hands, SCENE, {"level": 0.75, "shapes[0].coefficient": 2.0, "shapes[0].hardness": 5.0})

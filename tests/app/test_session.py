@@ -8,7 +8,7 @@ import pytest
 
 from hqmodel import files
 from hqmodel.app.asks import Choice, ChooseFile, New, Open, Problem, Quit, Unsaved
-from hqmodel.app.intents import Adjust, Answer, Ask, Do, Edit, Grab, Look, Put, Release, Reset, Select
+from hqmodel.app.intents import Adjust, Answer, Ask, Do, Edit, Grab, Look, Put, Release, Reset, Resize, Select
 from hqmodel.app.session import Session
 from hqmodel.edit import new_shape
 from hqmodel.model import Camera, Scene
@@ -42,6 +42,16 @@ def test_it_starts_with_a_ball_that_is_selected_and_in_view(session: Session) ->
     assert session.document.title == "Untitled - hqmodel"
     corner = session.view.camera.project([session.region.low, session.region.high], session.size)
     assert ((corner > 0) & (corner < session.size)).all()
+
+
+def test_it_stays_in_view_when_the_window_is_resized_until_the_camera_is_moved(session: Session) -> None:
+    session.apply([Resize((300, 900))])
+    corner = session.view.camera.project([session.region.low, session.region.high], (300, 900))
+    assert ((corner > 0) & (corner < (300, 900))).all()
+    moved = session.view.camera.orbited(20, 0)
+    session.apply([Look(moved), Resize((500, 500))])
+    assert session.view.camera == moved
+    assert session.size == (500, 500)
 
 
 def test_a_drag_is_one_step_and_is_seen_while_it_lasts(session: Session) -> None:

@@ -8,7 +8,7 @@ from typing import Protocol
 
 from imgui_bundle import imgui
 
-from ..intents import Intent, Look, Select
+from ..intents import Intent, Look, Resize, Select
 from ..navigation import Button, Pointer, navigated
 from ..session import Session
 
@@ -44,14 +44,15 @@ def draw(session: Session, hand: Hand, picture: Picture) -> list[Intent]:
     """The picture, in as many pixels as there is room for."""
     room, scale = imgui.get_content_region_avail(), imgui.get_io().display_framebuffer_scale
     points = max(1, int(room.x)), max(1, int(room.y))
-    session.size = max(1, round(points[0] * scale.x)), max(1, round(points[1] * scale.y))
+    size = max(1, round(points[0] * scale.x)), max(1, round(points[1] * scale.y))
     corner = imgui.get_cursor_screen_pos()
-    imgui.image(imgui.ImTextureRef(picture.draw(session.size)), points, (0, 1), (1, 0))
+    imgui.image(imgui.ImTextureRef(picture.draw(size)), points, (0, 1), (1, 0))
     imgui.set_cursor_screen_pos(corner)
     imgui.invisible_button("view", points, _ANY | imgui.ButtonFlags_.allow_overlap)
     imgui.set_item_key_owner(imgui.Key.mouse_wheel_y)
     imgui.set_item_key_owner(imgui.Key.mouse_wheel_x)
-    intents = _clicked(session, hand, corner, picture)
+    intents: list[Intent] = [] if size == session.size else [Resize(size)]
+    intents += _clicked(session, hand, corner, picture)
     moved = navigated(session.view.camera, _pointer(hand, corner), points)
     if moved is not session.view.camera:
         intents.append(Look(moved))
