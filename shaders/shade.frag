@@ -40,8 +40,9 @@ vec3 light_around(vec3 normal, vec3 own, vec2 pixel, ivec2 at)
 // How much darker than in the open the ground is.
 vec3 ground_shade(vec3 position, float key, vec3 around)
 {
-    vec3 open = KEY_COLOR * 0.5 * key_direction.z + open_light(vec3(0.0, 0.0, 1.0)) * 0.72;
-    vec3 here = KEY_COLOR * 0.5 * key_direction.z * key + around * 0.72;
+    vec3 direct = KEY_SHARE * KEY_COLOR * key_direction.z;
+    vec3 open = direct + open_light(vec3(0.0, 0.0, 1.0));
+    vec3 here = direct * key + around;
     vec2 beyond = max(abs(position.xy - 0.5 * (region_low + region_high).xy) - 0.5 * (region_high - region_low).xy, 0.0);
     float far = smoothstep(1.5, 6.0, length(beyond));
     return mix(min(here / open, 1.0), vec3(1.0), far);

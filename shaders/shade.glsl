@@ -4,8 +4,10 @@
 
 const float PI = 3.14159265;
 const float ROUGHNESS = 0.55;
-const vec3 BACKDROP_LOW = vec3(0.250, 0.246, 0.242);
-const vec3 BACKDROP_HIGH = vec3(0.120, 0.124, 0.132);
+const vec3 BACKDROP_LOW = vec3(0.470, 0.462, 0.450);
+const vec3 BACKDROP_HIGH = vec3(0.250, 0.262, 0.285);
+const float KEY_SHARE = 0.56;
+const float SKY_SHARE = 0.58;
 
 // Light that the sky and the floor send to a surface facing along `normal`, in the open.
 vec3 open_light(vec3 normal)
@@ -32,8 +34,8 @@ float gloss(vec3 normal, vec3 to_eye, vec3 to_light)
 vec3 clay(vec3 color, vec3 normal, vec3 to_eye, vec3 fill, vec3 rim, float key, vec3 around)
 {
     float lit = max(dot(normal, key_direction), 0.0) * key;
-    vec3 light = KEY_COLOR * lit * 0.5 + around * 0.72;
-    light += vec3(0.10, 0.12, 0.15) * max(dot(normal, fill), 0.0);
+    vec3 light = KEY_SHARE * KEY_COLOR * lit + SKY_SHARE * around;
+    light += vec3(0.17, 0.19, 0.23) * max(dot(normal, fill), 0.0);
     float edge = pow(1.0 - max(dot(normal, to_eye), 0.0), 3.0);
     vec3 back = vec3(0.55, 0.60, 0.68) * edge * smoothstep(-0.1, 0.8, dot(normal, rim));
     return color * (light + back * 0.6) + KEY_COLOR * key * gloss(normal, to_eye, key_direction) + back * 0.10;
@@ -44,5 +46,5 @@ vec3 backdrop(vec3 direction, vec2 at)
 {
     float height = smoothstep(-0.35, 0.45, direction.z);
     vec3 color = mix(BACKDROP_LOW, BACKDROP_HIGH, height);
-    return color * (1.06 - 0.30 * smoothstep(0.1, 1.6, dot(at, at)));
+    return color * (1.05 - 0.38 * smoothstep(0.05, 1.9, dot(at, at)));
 }
