@@ -1,10 +1,11 @@
 #version 330 core
-// From summed samples to the picture: averaged, its highlights rolled off, encoded as sRGB.
+// From summed samples to the picture: averaged, its highlights rolled off, encoded as sRGB. DRAFT is defined while there are
+// no samples yet, only a draft of them.
 
 uniform sampler2D samples;  // sums, w: how many
 uniform sampler2D guides;   // sums of normals and distances
-uniform sampler2D draft;    // shown where there are none, from its lower left part
-uniform vec2 draft_share;   // as large as this
+uniform sampler2D draft;
+uniform vec2 draft_share;   // it fills so much of its texture, from the lower left
 uniform int lit;            // whether it shows light and shadow
 
 out vec4 color;
@@ -26,6 +27,7 @@ float noise(vec2 pixel)
     return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
 }
 
+#ifndef DRAFT
 // The mean of the samples hereabouts that face the same way and lie as deep: the grain of few rays goes, edges stay.
 vec3 smoothed(ivec2 at)
 {
@@ -44,18 +46,18 @@ vec3 smoothed(ivec2 at)
     }
     return total.rgb / total.w;
 }
+#endif
 
 void main()
 {
+#ifdef DRAFT
+    vec2 size = vec2(textureSize(draft, 0));
+    vec3 light = texture(draft, min(gl_FragCoord.xy / size * draft_share, draft_share - 0.5 / size)).rgb;
+#else
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec4 sum = texelFetch(samples, at, 0);
-    vec3 light = sum.rgb / max(sum.w, 1.0);
-    if (sum.w < 0.5) {
-        vec2 size = vec2(textureSize(samples, 0));
-        light = texture(draft, min(gl_FragCoord.xy / size * draft_share, draft_share - 0.5 / size)).rgb;
-    } else if (lit != 0) {
-        light = smoothed(at);
-    }
+    vec3 light = lit != 0 ? smoothed(at) : sum.rgb / max(sum.w, 1.0);
+#endif
     light = lit != 0 ? rolled_off(light) : min(light, 1.0);
     color = vec4(srgb(light) + (noise(gl_FragCoord.xy) - 0.5) / 255.0, 1.0);
 }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any
 
 import moderngl
 
@@ -26,7 +27,8 @@ def offscreen() -> moderngl.Context:
     Raises GpuError, one sentence, when no way leads to OpenGL 3.3.
     """
     reasons = []
-    for options in ({"backend": "egl"}, {}):
+    ways: tuple[dict[str, Any], ...] = ({"backend": "egl"}, {})
+    for options in ways:
         try:
             return moderngl.create_context(standalone=True, require=REQUIRED, **options)
         except Exception as error:  # moderngl's backends raise the bare Exception, ImportError, OSError or ValueError

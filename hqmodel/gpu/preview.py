@@ -16,13 +16,15 @@ from hqmodel.model import Camera, Scene
 from .context import framebuffer_kept, software
 from .floor import floor_height
 from .memory import SceneMemory
-from .picture import Picture, samples_of
+from .picture import Picture
 from .sight import camera_uniforms, depth_range, light_uniforms
 from .studio import MODES, Shot, Studio, tile_side
 
 # Seconds that a draft may take before the next is drawn coarser, or finer.
 _SLOW, _FAST = 0.07, 0.02
 _COARSEST = 4
+# Samples a pixel of a finished picture: with light and shadow on a graphics card, and otherwise.
+_LIT_SAMPLES, _SAMPLES = 64, 16
 
 
 class Seen(NamedTuple):
@@ -115,12 +117,10 @@ class Preview:
             self._picture = Picture(self.ctx, shot.size)
         studio = self._ready_studio()
         started = perf_counter()
-        self._picture.clear()
         self._picture.draft(studio, self._memory, shot, self._coarse)
-        self._picture.resolve(shot, self._picture.shown.whole)
         self.ctx.finish()
         seconds = perf_counter() - started
-        self._work = self._picture.refined(studio, self._memory, shot, samples_of(shot))
+        self._work = self._picture.refined(studio, self._memory, shot, self._samples(shot))
         self._shot, self._left = shot, True
         if seconds > _SLOW:
             self._coarse = min(self._coarse + 1, _COARSEST)
@@ -133,6 +133,9 @@ class Preview:
             self.ctx.finish()
             if perf_counter() >= until:
                 break
+
+    def _samples(self, shot: Shot) -> int:
+        return _LIT_SAMPLES if shot.lit and not self._slow else _SAMPLES
 
     def _ready_studio(self) -> Studio:
         side = tile_side(self._memory.rows, self._slow)

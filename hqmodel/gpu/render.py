@@ -67,12 +67,10 @@ def _drawn(
         picture = Picture(ctx, (width, height))
         part = replace(shot, origin=(left, bottom))
         with framebuffer_kept(ctx):
-            picture.clear()
             steps = ceil(samples / BATCH) * len(tiles((width, height), studio.side))
             for step, _ in enumerate(picture.refined(studio, memory, part, samples)):
                 ctx.finish()
                 tell((number + min(1.0, (step + 1) / steps)) / len(parts), "Drawing")
-            picture.resolve(part, picture.shown.whole)
             drawn = np.frombuffer(picture.shown.texture.read(), dtype=np.uint8)
         result[bottom : bottom + height, left : left + width] = drawn.reshape(height, width, 4)
         picture.release()

@@ -60,7 +60,7 @@ class Pass:
         target.framebuffer.use()
         target.framebuffer.viewport = rectangle
         self.ctx.enable_only(moderngl.BLEND if adding else moderngl.NOTHING)
-        self.ctx.blend_func = moderngl.ADDITIVE_BLENDING
+        self.ctx.blend_func = moderngl.ONE, moderngl.ONE
         if memory is not None:
             memory.use(self.program)
         assign(self.program, uniforms)

@@ -1,4 +1,4 @@
-"""What the shaders are told of the camera and of the lights, which stand as in a photographer's studio: turned with the camera."""
+"""What the shaders are told of the camera and of the lights, which turn with it as in a photographer's studio."""
 
 from __future__ import annotations
 

@@ -75,10 +75,10 @@ class Studio:
     def _look(self, memory: SceneMemory, here: Rectangle, uniforms: dict[str, Any]) -> None:
         """Find the surfaces that the camera sees."""
         state = self._trace("camera", 0, memory, here, uniforms)
-        defines = tuple(name for name in ("GROUPS", "HYPERBOLIC") if name in memory.defines)
+        defines = [name for name in memory.defines if name in ("GROUPS", "HYPERBOLIC")]
         if uniforms["mode"] == MODES.index("curvature"):
-            defines += ("CURVATURE",)
-        shared_pass(self.ctx, "surface.frag", defines).draw(self._surface, here, uniforms, {"state": state}, memory)
+            defines.append("CURVATURE")
+        shared_pass(self.ctx, "surface.frag", tuple(defines)).draw(self._surface, here, uniforms, {"state": state}, memory)
 
     def seen(self, memory: SceneMemory, shot: Shot, pixel: tuple[int, int]) -> bytes:
         """Position, distance, normal, kind, colour and strip's row (surface.frag) at one pixel, counted from the lower left."""
