@@ -5,8 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +29,7 @@ from .manifold import parted
 from .measure import largest_distance
 from .mesh import Array, Mesh, MeshError, Triangles, reflected
 from .refine import place_vertices
+from .weld import Piece, Weld
 
 Progress = Callable[[float, str], None]
 MAX_RESOLUTION = 2048
@@ -53,11 +52,14 @@ def polygonize(scene: Scene, resolution: int = 256, progress: Progress | None = 
     _must_exist(scene, where)
     mirrored = mirror_axes(terms, where)
     grid = make_grid(where, resolution, mirrored)
-    pieces = [piece for piece in _pieces(scene, terms, grid, shading, tell) if len(piece.faces)]
-    if not pieces:
+    weld = Weld()
+    for piece in _pieces(scene, terms, grid, shading, tell):
+        if piece is not None:
+            weld.add(piece)
+    if not weld:
         raise MeshError("no surface: the field does not reach its level anywhere at this resolution")
     tell(0.95, "Joining")
-    mesh = _welded(pieces)
+    mesh = weld.mesh()
     for axis in mirrored:
         mesh = reflected(mesh, axis)
     mesh = parted(mesh)
@@ -78,19 +80,7 @@ def _must_exist(scene: Scene, where: Region) -> None:
         raise MeshError("bounds: expected a box to cut the body by, as it runs on without end, got none")
 
 
-@dataclass(frozen=True, eq=False)
-class _Piece:
-    """One tile's triangles, its vertices named by their edges."""
-
-    keys: NDArray[np.int64]
-    vertices: Array
-    faces: Triangles
-    normals: NDArray[np.float32] | None
-    colors: NDArray[np.uint8] | None
-    error: float
-
-
-def _pieces(scene: Scene, terms: Terms, grid: Grid, shading: bool, tell: Progress) -> Iterator[_Piece]:
+def _pieces(scene: Scene, terms: Terms, grid: Grid, shading: bool, tell: Progress) -> Iterator[Piece | None]:
     """The tiles' pieces in order, worked out on all cores."""
     jobs = tiles(terms, grid)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -102,27 +92,29 @@ def _pieces(scene: Scene, terms: Terms, grid: Grid, shading: bool, tell: Progres
             pool.shutdown(wait=True, cancel_futures=True)
 
 
-def _piece(scene: Scene, terms: Terms, grid: Grid, tile: Blocks, shading: bool) -> _Piece:
+def _piece(scene: Scene, terms: Terms, grid: Grid, tile: Blocks, shading: bool) -> Piece | None:
     low, high = grid.corners(tile.reshape(1, 3), TILE)
     local = relevant_terms(terms, low[0], high[0])
     blocks = blocks_of(local, grid, tile)
-    empty = np.empty((0, 3))
     if not len(blocks):
-        return _Piece(np.empty(0, np.int64), empty, np.empty((0, 3), np.int32), None, None, 0.0)
+        return None
     patch = extract(blocks, _samples(local, grid, blocks), 1.0 / _step(local, grid))
     keys, first, inverse = np.unique(_keys(patch.edge, grid), return_index=True, return_inverse=True)
     faces = inverse.reshape(-1).astype(np.int32)[patch.faces]
     faces = faces[np.all(faces != np.roll(faces, 1, axis=1), axis=1)]  # edges without length close up at the ends of cuts
+    if not len(faces):
+        return None
     patch = Patch(patch.edge[first], patch.place[first], patch.ends[first], faces)
     vertices = place_vertices(local, grid, patch)
     slope = near_linear_gradient(local, vertices)[1]
     size = np.linalg.norm(slope, axis=1)
     error = largest_distance(local, vertices, _off_cuts(faces, vertices, grid), size, grid.cell)
+    shared = np.any((patch.edge[:, :3] % TILE == 0) & (patch.edge[:, 3:] != np.arange(3)), axis=1)
     if not shading:
-        return _Piece(keys, vertices, faces, None, None, error)
+        return Piece(keys, shared, vertices, faces, None, None, error)
     normals = _with_caps(slope / -np.maximum(size, 1e-200)[:, None], vertices, patch.edge[:, 3] == AT_NODE, grid)
     colors = np.rint(mixed_colors(scene, local, vertices) * 255).astype(np.uint8)
-    return _Piece(keys, vertices, faces, normals, colors, error)
+    return Piece(keys, shared, vertices, faces, normals, colors, error)
 
 
 def _off_cuts(faces: Triangles, vertices: Array, grid: Grid) -> Triangles:
@@ -164,17 +156,3 @@ def _keys(edge: NDArray[np.int64], grid: Grid) -> NDArray[np.int64]:
     """One number for each grid edge."""
     _, ny, nz = (len(nodes) for nodes in grid.nodes)
     return ((edge[:, 0] * ny + edge[:, 1]) * nz + edge[:, 2]) * (AT_NODE + 1) + edge[:, 3]
-
-
-def _welded(pieces: list[_Piece]) -> Mesh:
-    """The pieces joined where their tiles meet."""
-    starts = np.cumsum([0] + [len(piece.keys) for piece in pieces])
-    faces = np.concatenate([piece.faces + np.int32(start) for piece, start in zip(pieces, starts[:-1], strict=True)])
-    _, first, inverse = np.unique(np.concatenate([piece.keys for piece in pieces]), return_index=True, return_inverse=True)
-
-    def joined(name: str) -> Any:
-        parts = [getattr(piece, name) for piece in pieces]
-        return None if parts[0] is None else np.concatenate(parts)[first]
-
-    error = max(piece.error for piece in pieces)
-    return Mesh(joined("vertices"), inverse.reshape(-1).astype(np.int32)[faces], joined("normals"), joined("colors"), error)

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from .mesh import Array, Mesh, Triangles
 
 _ROUNDS = 8
+_VERTICES_AT_ONCE = 40_000
 # How far the new vertex moves from the edge into its sheet.
 _ASIDE = 0.1
 
@@ -66,17 +67,25 @@ def _parted_once(mesh: Mesh, edges: list[tuple[int, int]]) -> Mesh:
 
 def _directed_twice(faces: Triangles, count: int) -> list[tuple[int, int]]:
     """Edges (a, b), a < b, along which more than one face runs in the same direction."""
-    start, end = faces.ravel().astype(np.int64), np.roll(faces, -1, axis=1).ravel()
-    keys = np.sort(start * count + end)
-    again = np.unique(keys[1:][keys[1:] == keys[:-1]])
-    return sorted({(int(min(k // count, k % count)), int(max(k // count, k % count))) for k in again})
+    found: set[tuple[int, int]] = set()
+    for start in range(0, count, _VERTICES_AT_ONCE):
+        parts = []
+        for i in range(3):
+            column, following = faces[:, i], faces[:, (i + 1) % 3]
+            here = (column >= start) & (column < start + _VERTICES_AT_ONCE)
+            parts.append(column[here].astype(np.int64) * count + following[here])
+        keys = np.concatenate(parts)
+        keys.sort()
+        again = keys[1:][keys[1:] == keys[:-1]]
+        found |= {(int(min(k // count, k % count)), int(max(k // count, k % count))) for k in again}
+    return sorted(found)
 
 
 def _sheets(mesh: Mesh, a: int, b: int) -> list[tuple[int, int]]:
     """Pairs of faces about the edge that belong together: of those running a to b each with the nearest running back."""
     around = np.flatnonzero(np.any(mesh.faces == a, axis=1) & np.any(mesh.faces == b, axis=1))
     along = mesh.vertices[b] - mesh.vertices[a]
-    forth, back = [], []
+    forth, back = list[tuple[int, Array]](), list[tuple[int, Array]]()
     for face in around:
         corners = [int(corner) for corner in mesh.faces[face]]
         away = mesh.vertices[next(corner for corner in corners if corner not in (a, b))] - mesh.vertices[a]
