@@ -93,7 +93,7 @@ def _sheets(mesh: Mesh, a: int, b: int) -> list[tuple[int, int]]:
         direction = away / max(float(np.linalg.norm(away)), 1e-300)
         (forth if corners[(corners.index(a) + 1) % 3] == b else back).append((int(face), direction))
     pairs = []
-    for face, direction in forth:
+    for left, direction in forth:
         nearest = max(range(len(back)), key=lambda i: float(direction @ back[i][1]))
-        pairs.append((face, back.pop(nearest)[0]))
+        pairs.append((left, back.pop(nearest)[0]))
     return pairs
