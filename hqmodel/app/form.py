@@ -53,17 +53,20 @@ class Form:
 
     def slider(self, location: Location, spec: Number, label: str, prefix: str = "", width: float = -1.0) -> None:
         """The slider alone, its label hidden; typed values may leave its range as far as the format permits."""
-        value, name = float(edit.get(self.scene, location)), place(location)
-        low, high = self.memory.spans.get(name) or _span(spec, value)
-        imgui.set_next_item_width(width)
-        changed, held = imgui.slider_float(f"##{name}", value, low, high, prefix + _digits(value), _SLIDER[spec.logarithmic])
-        if self._watched(location, label):
-            self.memory.spans[name] = low, high
-        elif not imgui.is_item_active():
-            self.memory.spans.pop(name, None)
+        value = float(edit.get(self.scene, location))
+        changed, held = self._slid(location, spec, label, value, prefix + _digits(value), width)
         if changed:
-            self.intents.append(Put(location, _shortest(held), label))
+            self.intents.append(Put(location, held, label))
         self._resettable(location, spec, label)
+        _explained(_help(spec))
+
+    def together(self, name: Location, locations: Sequence[Location], spec: Number) -> None:
+        """One slider for the same number of several things; it says so where they differ."""
+        values = [float(edit.get(self.scene, location)) for location in locations]
+        shown = _digits(values[0]) if min(values) == max(values) else "varied"
+        changed, held = self._slid(name, spec, spec.label, values[0], shown, -1.0)
+        if changed:
+            self.intents += [Put(location, held, spec.label) for location in locations]
         _explained(_help(spec))
 
     def color(self, location: Location) -> None:
@@ -130,10 +133,23 @@ class Form:
                 self.intents.append(Put(location, option, label))
             _explained(help)
 
+    def _slid(self, location: Location, spec: Number, label: str, value: float, shown: str, width: float) -> tuple[bool, float]:
+        """A slider whose range stays as it is while it is held; whether it moved, and where to."""
+        name = place(location)
+        low, high = self.memory.spans.get(name) or _span(spec, value)
+        imgui.set_next_item_width(width)
+        changed, held = imgui.slider_float(f"##{name}", value, low, high, shown, _SLIDER[spec.logarithmic])
+        if self._watched(location, label):
+            self.memory.spans[name] = low, high
+        elif not imgui.is_item_active():
+            self.memory.spans.pop(name, None)
+        return changed, _shortest(held)
+
     def _vector(self, location: Location, spec: Number, label: str) -> None:
         self.label(label, _help(spec))
         width = _third()
-        for index, part in enumerate(spec.parts):
+        flat = self.scene.dimension == 2 and location[-1] == "normal"
+        for index, part in enumerate(spec.parts[:2] if flat else spec.parts):
             if index:
                 imgui.same_line(0, imgui.get_style().item_inner_spacing.x)
             self.slider((*location, index), spec, label, f"{part}  ", width)

@@ -55,14 +55,17 @@ def _bare(name: str, draw: Callable[[], None]) -> None:
     imgui.end()
 
 
-def sync(params: hello_imgui.RunnerParams, session: Session) -> None:
-    """Panels that were closed by their own cross are hidden for the session too, and the other way round."""
-    for window in params.docking_params.dockable_windows:
-        shown = window.label not in session.hidden_panels
-        if session.shown_panels.get(window.label, window.is_visible) and not window.is_visible:
-            session.hidden_panels.add(window.label)
-            shown = False
-        window.is_visible = shown
-        session.shown_panels[window.label] = shown
-    if session.layout_wanted:
-        params.docking_params.layout_reset, session.layout_wanted = True, False
+class Shown:
+    """Which panels are shown: the session's word, and what came of their crosses and of the last time."""
+
+    def __init__(self) -> None:
+        self._before: dict[str, bool] = {}
+
+    def sync(self, params: hello_imgui.RunnerParams, session: Session) -> None:
+        """Whichever of the two has changed since the last frame is what the other is made."""
+        for window in params.docking_params.dockable_windows:
+            if self._before.get(window.label) != window.is_visible:
+                (session.hidden_panels.discard if window.is_visible else session.hidden_panels.add)(window.label)
+            window.is_visible = self._before[window.label] = window.label not in session.hidden_panels
+        if session.layout_wanted:
+            params.docking_params.layout_reset, session.layout_wanted = True, False

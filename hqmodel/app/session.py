@@ -40,7 +40,6 @@ class Session:
         self.dialogs: list[Dialog] = []
         self.export: ExportJob | None = None
         self.hidden_panels: set[str] = set()
-        self.shown_panels: dict[str, bool] = {}
         self.layout_wanted = False
         self.finished = False
         self.message = ""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from pathlib import Path
@@ -45,7 +47,8 @@ class Window:
         self._tree = outliner.Tree()
         self._shelf = presets.Shelf(files.builtin())
         self._hand = viewport.Hand()
-        self._chooser = native.NativeChooser() if native_dialogs and native.available() else None
+        self.chooser = native.NativeChooser() if native_dialogs and native.available() else None
+        self._shown = layout.Shown()
         self._dropped: list[Path] = []
         self._title = ""
         self._stirred = 0.0
@@ -60,7 +63,7 @@ class Window:
         except BaseException:
             kept = rescued(self.session.scene) if self.session.history.dirty else None
             if kept is not None:
-                print(f"hqmodel: what was not saved is in {kept}")
+                print(f"hqmodel: what was not saved is in {kept}", file=sys.stderr)
             raise
 
     # What hello_imgui is told
@@ -71,8 +74,9 @@ class Window:
         params.app_window_params.window_geometry.size = SIZE
         params.app_window_params.restore_previous_geometry = True
         params.ini_folder_type = hello_imgui.IniFolderType.absolute_path
-        params.ini_filename = str(_ini())
         params.ini_filename_use_app_window_title = False
+        ini = _ini()
+        params.ini_filename, params.ini_disable = str(ini or ""), ini is None
         params.fps_idling.fps_idle = 1 / IDLE_SECONDS
         params.fps_idling.time_active_after_last_event = AWAKE_SECONDS
         # ImGui smooths its own edges, and the preview its own: multisampling would only make every frame slow.
@@ -142,7 +146,7 @@ class Window:
             session.apply([Open(dropped[0])])
         self._restyle()
         self._retitle()
-        layout.sync(self.params, session)
+        self._shown.sync(self.params, session)
         if session.finished:
             self.params.app_shall_exit = True
 
@@ -161,17 +165,17 @@ class Window:
             hello_imgui.request_refresh()
 
     def _dialog(self) -> Iterable[Intent]:
-        if self._choosing and self._chooser is not None:
+        if self._choosing and self.chooser is not None:
             asked = self.session.dialogs[-1]
             assert isinstance(asked, ChooseFile)
-            return self._chooser.poll(asked)
+            return self.chooser.poll(asked)
         return front.draw(self.session)
 
     @property
     def _choosing(self) -> bool:
         """Whether one of the system's own dialogs is open."""
         dialogs = self.session.dialogs
-        return self._chooser is not None and bool(dialogs) and isinstance(dialogs[-1], ChooseFile)
+        return self.chooser is not None and bool(dialogs) and isinstance(dialogs[-1], ChooseFile)
 
     def _spare(self) -> float:
         """The seconds that finer things than a draft may take of this frame: none while somebody is at work."""
@@ -219,11 +223,11 @@ class Window:
             self._title = title
 
 
-def _ini() -> Path:
-    """Where hello_imgui keeps the layout; created here, it would not create the folder above its own."""
+def _ini() -> Path | None:
+    """Where hello_imgui keeps the layout; None in a home that can't be written to: it is not kept then, that is all."""
     folder = settings_folder()
     try:
         folder.mkdir(parents=True, exist_ok=True)
-    except OSError:  # a read-only home: the layout is not kept, that is all
-        return folder / "window.ini"
-    return folder / "window.ini"
+    except OSError:
+        return None
+    return folder / "window.ini" if os.access(folder, os.W_OK) else None

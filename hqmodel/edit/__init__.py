@@ -1,6 +1,7 @@
 """Edits as named pure functions from a scene to a new one, and the history that they make."""
 
 from .angles import angles, quaternion
+from .dimension import extruded, flattened
 from .history import History
 from .paths import EditError, get, locations, parse, put, reset
 from .primitives import PRIMITIVES, new_scene, new_shape
@@ -16,6 +17,8 @@ __all__ = [
     "angles",
     "duplicate_shape",
     "duplicate_strip",
+    "extruded",
+    "flattened",
     "get",
     "locations",
     "move_shape",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import json
+import os
 from pathlib import Path
 from typing import Any, cast
 
@@ -12,8 +13,10 @@ import trimesh
 from imgui_bundle import imgui
 
 from hqmodel import files
+from hqmodel.app import native
 from hqmodel.app.asks import Exported, Problem, Unsaved
-from hqmodel.app.intents import Do, Intent, Select
+from hqmodel.app.intents import Do, Intent, Put, Select
+from hqmodel.app.panels import status
 from hqmodel.edit import get, parse
 from hqmodel.model import Shape
 
@@ -86,6 +89,65 @@ def change_save_reopen_export(hands: Hands) -> None:
     assert len(body.faces) == told.report["faces"]
     hands.click("//Exported/OK")
     assert not hands.session.dialogs
+
+
+def an_export_can_be_stopped(hands: Hands) -> None:
+    """Progress is shown and Stop stops; meanwhile the panels go on working."""
+    session = hands.session
+    hands.menu("File/###export")
+    hands.type_value("//Export/##resolution", 1024)
+    hands.type_value("//Export/##file", str(hands.folder / "large.ply"))
+    hands.click("//Export/Export")
+    assert session.export is not None
+    hands.drag(f"{PROPERTIES}##shapes[0].strips[0].gamma", 30)
+    assert session.history.labels == ["Exponent"]
+    assert not session.dialogs
+    hands.click("//StatusBar/Stop")
+    hands.wait(lambda: session.export is None)
+    assert session.message == "Export cancelled; nothing was written"
+    assert [path for path in hands.folder.iterdir() if "large" in path.name] == []
+
+
+def flat_and_solid(hands: Hands) -> None:
+    """The outline of a shape, and back; the box is named when the body has no end."""
+    session = hands.session
+    hands.ctx.window_focus("//Scene")
+    hands.settle()
+    for label, dimension, strips in (("Flat", 2, 2), ("Solid", 3, 3)):
+        hands.click(f"{SCENE}{label}##dimension")
+        assert (session.scene.dimension, len(session.scene.shapes[0].strips)) == (dimension, strips)
+    assert status.notice(session) == ""
+    session.apply([Put(("shapes", 0, "strips", 2, "sign"), -1, "Sign")])
+    hands.settle()
+    assert status.notice(session).startswith("Endless, shown cut by the box (")
+    session.apply([Put(("shapes", 0, "visible"), False, "Hide")])
+    hands.settle()
+    assert status.notice(session) == "Nothing to see: the body is empty"
+
+
+def the_systems_own_dialogs(hands: Hands) -> None:
+    """Where the system has file dialogs, they are used; this one is a stand-in that answers at once."""
+    session, answer = hands.session, hands.folder / "answer"
+    stand_in = hands.folder / "bin" / "zenity"
+    stand_in.parent.mkdir()
+    stand_in.write_text(f"#!/bin/sh\ncat {answer}\n")
+    stand_in.chmod(0o755)
+    os.environ["PATH"] = f"{stand_in.parent}{os.pathsep}{os.environ['PATH']}"
+    assert native.available()
+    hands.window.chooser = native.NativeChooser()
+    hands.drag(f"{PROPERTIES}##shapes[0].strips[0].gamma", 30)
+    answer.write_text(f"{hands.folder / 'native'}\n")
+    hands.keys(CTRL | Key.s)
+    hands.wait(lambda: not session.dialogs)
+    assert files.load(hands.folder / "native.json").changed(view={}) == session.scene
+    answer.write_text("")
+    hands.keys(CTRL | Key.o)
+    hands.wait(lambda: not session.dialogs)
+    assert title(hands) == "native - hqmodel"
+    answer.write_text(f"{hands.folder / 'native.json'}\n")
+    hands.keys(CTRL | Key.o)
+    hands.wait(lambda: not session.dialogs and not session.history.can_undo)
+    assert title(hands) == "native - hqmodel"
 
 
 def every_field_has_a_control(hands: Hands) -> None:

@@ -44,6 +44,43 @@ def test_scenario(name: str, display: str, tmp_path: Path) -> None:
     assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
+def test_when_drawing_itself_fails_the_work_is_kept(display: str, tmp_path: Path) -> None:
+    """Nothing guards this one: the program ends, with the fault and with the file that has what was not saved."""
+    code = """
+from hqmodel.app.intents import Do
+from hqmodel.app.session import Session
+from hqmodel.app.window import Window
+from hqmodel.files import Settings
+
+session = Session(Settings())
+session.apply([Do("add block")])
+window = Window(session)
+
+def failing():
+    raise MemoryError("a fault of ours")
+
+window.params.callbacks.pre_new_frame = failing
+window.run()
+"""
+    environment = surroundings(display, tmp_path)
+    ended = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, timeout=SECONDS)
+    assert ended.returncode == 1
+    assert "MemoryError: a fault of ours" in ended.stderr
+    kept = re.search(r"^hqmodel: what was not saved is in (.+)$", ended.stderr, re.MULTILINE)
+    assert kept is not None
+    assert [shape.name for shape in files.load(kept[1]).shapes] == ["Ball", "Block"]
+
+
+def test_a_home_that_cannot_be_written_to_is_no_error(display: str, tmp_path: Path) -> None:
+    """A file stands where the folder of the settings would be: not even root can write there."""
+    (tmp_path / "config").write_text("in the way")
+    command = [sys.executable, "-m", "tests.app.drive", "tests.app.scenarios:turns_and_resets", str(tmp_path)]
+    environment = surroundings(display, tmp_path)
+    ended = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=SECONDS)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    assert (tmp_path / "config").read_text() == "in the way"
+
+
 def test_without_a_display_it_says_so_in_one_sentence(tmp_path: Path) -> None:
     environment = {**surroundings("", tmp_path), "WAYLAND_DISPLAY": ""}
     code = "from hqmodel.app import NoDisplay, run\ntry:\n    run()\nexcept NoDisplay as error:\n    print(error)"

@@ -11,6 +11,15 @@ def shape_name(shape: Shape, index: int) -> str:
 
 def strip_name(strip: Strip, index: int) -> str:
     """Its number, and the axis or the direction it is across."""
-    axes = [axis for axis, part in zip("xyz", strip.normal, strict=True) if part]
-    across = axes[0] if len(axes) == 1 else "(" + ", ".join(f"{part:.2g}" for part in strip.normal) + ")"
+    across = _axis(strip) or "(" + ", ".join(f"{part:.2g}" for part in strip.normal) + ")"
     return f"Strip {index + 1}  {across}"
+
+
+def strip_label(strip: Strip, index: int) -> str:
+    """Where there is little room: its number, and the axis it is across, if it is one."""
+    return f"Strip {index + 1}  {_axis(strip)}".rstrip()
+
+
+def _axis(strip: Strip) -> str:
+    axes = [axis for axis, part in zip("xyz", strip.normal, strict=True) if part]
+    return axes[0] if len(axes) == 1 else ""

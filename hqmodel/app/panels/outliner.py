@@ -54,9 +54,14 @@ def _rows(session: Session, tree: Tree) -> list[tuple[int, int | None]]:
     rows: list[tuple[int, int | None]] = []
     for index, shape in enumerate(session.scene.shapes):
         rows.append((index, None))
-        if index in tree.open:
+        if _opened(session, tree, index):
             rows += [(index, strip) for strip in range(len(shape.strips))]
     return rows
+
+
+def _opened(session: Session, tree: Tree, index: int) -> bool:
+    """Whether a shape's strips are shown: because it was opened, or one of them is selected."""
+    return index in tree.open or (session.selection.strip is not None and index == session.selection.active)
 
 
 def _tools(session: Session) -> list[Intent]:
@@ -91,7 +96,7 @@ def _shape(session: Session, tree: Tree, index: int) -> list[Intent]:
     shape = session.scene.shapes[index]
     imgui.push_id(f"shape {index}")
     start = imgui.get_cursor_screen_pos()
-    if imgui.arrow_button("open", imgui.Dir.down if index in tree.open else imgui.Dir.right):
+    if imgui.arrow_button("open", imgui.Dir.down if _opened(session, tree, index) else imgui.Dir.right):
         tree.open ^= {index}
     imgui.same_line()
     imgui.color_button("color", (*shape.color, 1.0), imgui.ColorEditFlags_.no_tooltip | imgui.ColorEditFlags_.no_drag_drop)

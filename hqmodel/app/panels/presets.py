@@ -15,6 +15,8 @@ from ..session import Session
 
 # The side of a thumbnail, in widths of the font.
 THUMBNAIL = 4.0
+# As much of a description as there is room for beside it; all of it is in the tooltip.
+LINES = 2
 
 
 @dataclass
@@ -71,7 +73,7 @@ def _row(preset: Builtin, thumbnail: Callable[[Builtin], int | None]) -> bool:
         imgui.text_unformatted(preset.title)
         imgui.push_style_color(imgui.Col_.text, imgui.get_style_color_vec4(imgui.Col_.text_disabled))
         room = imgui.get_cursor_screen_pos()
-        imgui.push_clip_rect(room, (room.x + 10_000, room.y + side - 1.6 * imgui.get_text_line_height()), True)
+        imgui.push_clip_rect(room, (room.x + 10_000, room.y + LINES * imgui.get_text_line_height()), True)
         imgui.text_wrapped(preset.description)
         imgui.pop_clip_rect()
         imgui.pop_style_color()

@@ -12,7 +12,7 @@ from hqmodel.model import FIELDS, Shape, Strip
 from ..form import Form, Memory
 from ..intents import Do, Edit, Intent, Put, Select
 from ..session import Session
-from .naming import shape_name, strip_name
+from .naming import shape_name, strip_label, strip_name
 
 _SIGNS = {"Closed (+)": 1, "Hyperbolic (-)": -1}
 _ALONE = "No group"
@@ -60,13 +60,16 @@ def _strips(form: Form, index: int, shape: Shape) -> None:
     for title, weight in (("Strip", 1.1), (gamma.label, 1.0), (half_width.label, 1.0)):
         imgui.table_setup_column(title, imgui.TableColumnFlags_.width_stretch, weight)
     imgui.table_headers_row()
+    if len(shape.strips) > 1:
+        _all_strips(form, index, shape)
     for number, strip in enumerate(shape.strips):
         at = ("shapes", index, "strips", number)
         imgui.table_next_row()
         imgui.table_next_column()
         imgui.align_text_to_frame_padding()
-        if imgui.text_link(strip_name(strip, number)):
+        if imgui.text_link(strip_label(strip, number)):
             form.intents.append(Select(index, number))
+        imgui.set_item_tooltip(strip_name(strip, number))
         imgui.table_next_column()
         form.slider((*at, "gamma"), gamma, gamma.label)
         imgui.table_next_column()
@@ -74,6 +77,18 @@ def _strips(form: Form, index: int, shape: Shape) -> None:
     imgui.end_table()
     if imgui.button("Add Strip"):
         form.intents.append(Do("add strip"))
+
+
+def _all_strips(form: Form, index: int, shape: Shape) -> None:
+    """One slider for all strips at once: it rounds or sharpens, thins or thickens the whole shape."""
+    imgui.table_next_row()
+    imgui.table_next_column()
+    imgui.align_text_to_frame_padding()
+    imgui.text_unformatted("All")
+    for name in ("gamma", "half_width"):
+        imgui.table_next_column()
+        every = [("shapes", index, "strips", number, name) for number in range(len(shape.strips))]
+        form.together(("shapes", index, "strips", name), every, FIELDS[f"shapes[].strips[].{name}"])
 
 
 def _mirror(form: Form, index: int, shape: Shape) -> None:

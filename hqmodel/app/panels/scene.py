@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from imgui_bundle import imgui
 
-from hqmodel.model import FIELDS
+from hqmodel import edit
+from hqmodel.model import FIELDS, Scene
 
 from ..form import Form, Memory
-from ..intents import Intent, Put, Select
+from ..intents import Edit, Intent, Put, Select
 from ..session import Session
 from .naming import shape_name
 
-_DIMENSIONS = {"Solid": 3, "Flat": 2}
+_DIMENSIONS: dict[str, tuple[int, Callable[[Scene], Scene]]] = {"Solid": (3, edit.extruded), "Flat": (2, edit.flattened)}
 
 
 def draw(session: Session, memory: Memory) -> list[Intent]:
@@ -20,7 +23,7 @@ def draw(session: Session, memory: Memory) -> list[Intent]:
     form.number(("level",))
     _composite(form)
     imgui.spacing()
-    form.choice(("dimension",), "Dimension", _DIMENSIONS, "Flat: the outline in the plane z = 0, of strips without a z part.")
+    _dimension(form)
     _bounds(form, session)
     imgui.separator_text("About")
     form.text(("name",), "Name")
@@ -50,6 +53,16 @@ def _composite(form: Form) -> None:
             imgui.table_next_column()
             form.slider(("shapes", index, name), spec, spec.label)
     imgui.end_table()
+
+
+def _dimension(form: Form) -> None:
+    """Solid or flat; the strips are made to fit."""
+    form.label("Dimension", "Flat: the outline in the plane z = 0, of strips without a z part.")
+    for name, (dimension, change) in _DIMENSIONS.items():
+        if imgui.radio_button(f"{name}##dimension", form.scene.dimension == dimension) and form.scene.dimension != dimension:
+            form.intents.append(Edit(name, change))
+        imgui.same_line()
+    imgui.new_line()
 
 
 def _bounds(form: Form, session: Session) -> None:
