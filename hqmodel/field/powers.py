@@ -11,6 +11,8 @@ import numpy as np
 from .terms import HUGE, Array, Indices, Terms
 
 CEILING = 1e300
+# The largest whole exponent that multiplying is quicker for than the library's power.
+_MOST_FACTORS = 64
 
 
 def strip_functions(terms: Terms, points: Array) -> Array:
@@ -59,17 +61,39 @@ def term_sums(terms: Terms, v: Array, u: Array) -> Array:
 
 def over_runs(rows: Array, starts: Indices) -> Array:
     """Sums over runs of rows (n, P) that begin at `starts`, (len(starts), P)."""
-    if len(starts) == len(rows):
+    count, runs = len(rows), len(starts)
+    if runs == count:
         return rows
-    return rows.sum(axis=0, keepdims=True) if len(starts) == 1 else np.add.reduceat(rows, starts, axis=0)
+    even = count // runs
+    if np.array_equal(starts, np.arange(runs) * even) and runs * even == count:
+        return rows.reshape(runs, even, -1).sum(axis=1)
+    return np.add.reduceat(rows, starts, axis=0)
 
 
 def _power(base: Array, exponents: Array) -> Array:
-    """base ** exponents[:, None], quick where every exponent is 1 or 2."""
-    first = exponents[0] if len(exponents) else 1.0
-    if first in (1.0, 2.0) and bool(np.all(exponents == first)):
-        return base if first == 1.0 else base * base
-    result: Array = base ** exponents[:, None]
+    """base ** exponents[:, None] for bases of 0 and more, by multiplication where an exponent is a small whole number."""
+    kinds = np.unique(exponents)
+    if len(kinds) == 1:
+        return _raised(base, float(kinds[0]))
+    if len(kinds) * 4 > len(exponents) and not np.any((kinds <= _MOST_FACTORS) & (kinds % 1 == 0)):
+        return base ** exponents[:, None]
+    result = np.empty(np.broadcast_shapes(base.shape, (len(exponents), 1)))
+    for kind in kinds:
+        rows = exponents == kind
+        result[rows] = _raised(base[rows], float(kind))
+    return result
+
+
+def _raised(base: Array, exponent: float) -> Array:
+    if exponent % 1 or not 1 <= exponent <= _MOST_FACTORS:
+        return np.power(base, exponent)
+    left, square, result = int(exponent), base, None
+    while left:
+        if left & 1:
+            result = square if result is None else result * square
+        left >>= 1
+        square = square * square if left else square
+    assert result is not None
     return result
 
 

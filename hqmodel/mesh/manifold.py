@@ -68,11 +68,12 @@ def _parted_once(mesh: Mesh, edges: list[tuple[int, int]]) -> Mesh:
 def _directed_twice(faces: Triangles, count: int) -> list[tuple[int, int]]:
     """Edges (a, b), a < b, along which more than one face runs in the same direction."""
     found: set[tuple[int, int]] = set()
-    for start in range(0, count, _VERTICES_AT_ONCE):
+    step = max(_VERTICES_AT_ONCE, count // 4)
+    for start in range(0, count, step):
         parts = []
         for i in range(3):
             column, following = faces[:, i], faces[:, (i + 1) % 3]
-            here = (column >= start) & (column < start + _VERTICES_AT_ONCE)
+            here = (column >= start) & (column < start + step)
             parts.append(column[here].astype(np.int64) * count + following[here])
         keys = np.concatenate(parts)
         keys.sort()
