@@ -97,7 +97,7 @@ def _colors(light: bool) -> dict[imgui.Col_, Color]:
         c.tab_dimmed_selected_overline: level(0.26),
         c.docking_preview: _tinted(0.5),
         c.docking_empty_bg: level(0.08),
-        c.plot_histogram: ACCENT,
+        c.plot_histogram: _tinted(0.55),
         c.table_header_bg: level(0.18),
         c.table_border_light: level(0.2),
         c.table_border_strong: level(0.26),

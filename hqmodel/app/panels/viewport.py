@@ -95,5 +95,6 @@ def _caption(session: Session, corner: imgui.ImVec2) -> None:
     view = session.view
     text = f"{view.mode.capitalize()}   {'Orthographic' if view.camera.orthographic else 'Perspective'}"
     inset = imgui.get_font_size() * 0.6
-    color = imgui.get_color_u32((1.0, 1.0, 1.0, 0.55))
-    imgui.get_window_draw_list().add_text((corner.x + inset, corner.y + inset), color, text)
+    for shift, color in ((1.0, (0.0, 0.0, 0.0, 0.6)), (0.0, (1.0, 1.0, 1.0, 0.85))):
+        at = corner.x + inset + shift, corner.y + inset + shift
+        imgui.get_window_draw_list().add_text(at, imgui.get_color_u32(color), text)
