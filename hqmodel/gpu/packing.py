@@ -32,7 +32,7 @@ class Frame:
 
     @classmethod
     def of(cls, region: Region) -> Frame:
-        return cls(region.centre, float(np.max(region.size)) / 2)
+        return cls(region.centre, float(np.max(region.size)) / 2 or 1.0)
 
     def local(self, points: ArrayLike) -> Array:
         """World points (..., 3) in the unit frame."""

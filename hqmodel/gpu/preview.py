@@ -120,7 +120,7 @@ class Preview:
         self._picture.draft(studio, self._memory, shot, self._coarse)
         self.ctx.finish()
         seconds = perf_counter() - started
-        self._work = self._picture.refined(studio, self._memory, shot, self._samples(shot))
+        self._work = self._picture.refined(studio, self._memory, shot, self.samples(shot.mode))
         self._shot, self._left = shot, True
         if seconds > _SLOW:
             self._coarse = min(self._coarse + 1, _COARSEST)
@@ -134,8 +134,9 @@ class Preview:
             if perf_counter() >= until:
                 break
 
-    def _samples(self, shot: Shot) -> int:
-        return _LIT_SAMPLES if shot.lit and not self._slow else _SAMPLES
+    def samples(self, mode: str) -> int:
+        """How many samples a pixel a finished picture of that mode has."""
+        return _LIT_SAMPLES if mode == "clay" and not self._slow else _SAMPLES
 
     def _ready_studio(self) -> Studio:
         side = tile_side(self._memory.rows, self._slow)

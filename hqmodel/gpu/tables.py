@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import moderngl
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,20 +26,32 @@ _AT_ONCE = 4096
 _SEARCHING, _BRACKETED, _INSIDE, _MISS = 0.0, 1.0, 3.0, 4.0
 
 
-def field_values(ctx: moderngl.Context, scene: Scene, points: ArrayLike) -> tuple[Array, Array]:
-    """F and L, (n,) each, at points (n, 3), as the GPU works them out in float32; both stay within 1e38."""
+class Values(NamedTuple):
+    """The field at n points as the GPU works it out, in float32 and within 1e38; what is in world units is so."""
+
+    value: Array  # (n,) F
+    log_ratio: Array  # (n,) L
+    curvature: Array  # (n,) Gaussian, of the level set through the point
+    strip: NDArray[np.intp]  # (n,) the shaping strip's row in `Terms`; -1 for none
+    normal: Array  # (n, 3) outwards, of length 1; 0 where there is no slope
+
+
+def field_values(ctx: moderngl.Context, scene: Scene, points: ArrayLike) -> Values:
+    """What the preview's shaders make of the field at points (n, 3)."""
     terms = Terms.of(scene)
     memory = SceneMemory(ctx)
     memory.write(scene, terms, region(scene, terms))
     local = np.clip(memory.frame.local(points), -LIMIT, LIMIT)
     table = _texture(ctx, local)
-    target = Target(ctx, table.size)
+    target = Target(ctx, table.size, count=2)
     with framebuffer_kept(ctx):
-        shared_pass(ctx, "probe.frag", ("GROUPS", "HYPERBOLIC")).draw(target, target.whole, {}, {"points": table}, memory)
-        values = read(target.texture)[: len(local)]
+        probe = shared_pass(ctx, "probe.frag", ("GROUPS", "HYPERBOLIC", "CURVATURE"))
+        probe.draw(target, target.whole, {}, {"points": table}, memory)
+        values, facing = (read(texture)[: len(local)] for texture in target.textures)
     for each in (table, target, memory):
         each.release()
-    return values[:, 0], values[:, 1]
+    f, ratio, curvature, strip = values.T
+    return Values(f, ratio, curvature / memory.frame.scale**2, strip.astype(np.intp), facing[:, :3])
 
 
 def raycast(scene: Scene, origins: ArrayLike, directions: ArrayLike, ctx: moderngl.Context | None = None) -> Array:

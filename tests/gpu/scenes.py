@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.random import Generator
+from numpy.typing import NDArray
 
 from hqmodel.model import Group, Scene, Shape, Strip, Transform
 
+Array = NDArray[np.float64]
 Triple = tuple[float, float, float]
 EXPONENTS = (0.05, 0.3, 0.6, 1.0, 1.5, 2.0, 4.0, 8.0, 40.0, 60.0, 400.0, 1000.0)
 AXES = np.concatenate([np.eye(3), [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]])
 
 
-def _triple(values: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> Triple:
+def _triple(values: Array) -> Triple:
     x, y, z = (float(value) for value in values)
     return x, y, z
 
@@ -58,10 +60,22 @@ def random_scene(rng: Generator, shapes: int, exponents: tuple[float, ...] = EXP
     return Scene(shapes=parts, level=float(rng.choice([1.0, 1.0, 0.4])), bounds=bounds)
 
 
-def random_rays(rng: Generator, scene_low: np.ndarray, scene_high: np.ndarray, count: int):  # type: ignore[no-untyped-def]
-    """Origins on a sphere around the box, directions at points in it."""
-    centre, radius = (scene_low + scene_high) / 2, float(np.linalg.norm(scene_high - scene_low))
+def random_rays(rng: Generator, low: Array, high: Array, count: int) -> tuple[Array, Array]:
+    """Origins on a sphere around the box from low to high, unit directions at points in it, (count, 3) each."""
+    centre, radius = (low + high) / 2, float(np.linalg.norm(high - low))
     outwards = rng.normal(size=(count, 3))
     origins = centre + radius * outwards / np.linalg.norm(outwards, axis=1, keepdims=True)
-    directions = rng.uniform(scene_low, scene_high, size=(count, 3)) - origins
+    directions = rng.uniform(low, high, size=(count, 3)) - origins
     return origins, directions / np.linalg.norm(directions, axis=1, keepdims=True)
+
+
+def ball(place: Triple = (0.0, 0.0, 0.0), radius: float = 1.0) -> Scene:
+    """A sphere."""
+    return solid(2.0, place, radius)
+
+
+def solid(gamma: float, place: Triple = (0.0, 0.0, 0.0), size: float = 1.0) -> Scene:
+    """The superquadric of one exponent: a sphere at 2, nearly a cube at 40."""
+    strips = tuple(Strip(normal=normal, gamma=gamma) for normal in ((1, 0, 0), (0, 1, 0), (0, 0, 1)))
+    transform = Transform(translation=place, scale=(size, size, size))
+    return Scene(shapes=(Shape(strips=strips, transform=transform),))
