@@ -1,0 +1,55 @@
+"""Makes the README's pictures with the program itself: ``make pictures`` (under Xvfb, for the window).
+
+The starters by `hqmodel.render`, the window by photographing the real one at rest.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from PIL import Image, ImageGrab
+
+import hqmodel
+
+IMAGES = Path(__file__).parent / "images"
+SHOWN = "cat brilliant owl goblet linked-rings pierced-dumbbell rocket head tetrahedral-slice teddy pawn butterfly".split()
+TILE, ACROSS = (320, 240), 4
+IN_THE_WINDOW = "cat"
+REFINED_AFTER = 120.0  # seconds, for a software renderer
+
+
+def starters() -> Image.Image:
+    """A sheet of starter presets."""
+    rows = -(-len(SHOWN) // ACROSS)
+    sheet = Image.new("RGB", (TILE[0] * ACROSS, TILE[1] * rows))
+    for number, name in enumerate(SHOWN):
+        tile = Image.fromarray(hqmodel.render(hqmodel.load(name), size=TILE)).convert("RGB")
+        sheet.paste(tile, (TILE[0] * (number % ACROSS), TILE[1] * (number // ACROSS)))
+    return sheet
+
+
+def window() -> Image.Image:
+    """The modeller's window once its picture has had time to refine."""
+    modeller = subprocess.Popen([sys.executable, "-m", "hqmodel", IN_THE_WINDOW])
+    try:
+        time.sleep(REFINED_AFTER)
+        shot = ImageGrab.grab(xdisplay=os.environ["DISPLAY"]).convert("RGB")
+        return shot.crop(shot.getbbox())
+    finally:
+        modeller.terminate()
+        modeller.wait()
+
+
+def main() -> None:
+    """Write both pictures."""
+    IMAGES.mkdir(exist_ok=True)
+    for name, make in (("starters", starters), ("window", window)):
+        make().save(IMAGES / f"{name}.jpg", quality=90)
+
+
+if __name__ == "__main__":
+    main()
