@@ -16,7 +16,20 @@ from PIL import Image, ImageGrab
 import hqmodel
 
 IMAGES = Path(__file__).parent / "images"
-SHOWN = "cat brilliant owl goblet linked-rings pierced-dumbbell rocket head tetrahedral-slice teddy pawn butterfly".split()
+SHOWN = [
+    "cat",
+    "brilliant",
+    "owl",
+    "goblet",
+    "linked-rings",
+    "pierced-dumbbell",
+    "rocket",
+    "head",
+    "tetrahedral-slice",
+    "teddy",
+    "pawn",
+    "butterfly",
+]
 TILE, ACROSS = (320, 240), 4
 IN_THE_WINDOW = "cat"
 REFINED_AFTER = 120.0  # seconds, for a software renderer
