@@ -16,32 +16,23 @@ from PIL import Image, ImageGrab
 import hqmodel
 
 IMAGES = Path(__file__).parent / "images"
-SHOWN = [
-    "cat",
-    "brilliant",
-    "owl",
-    "goblet",
-    "linked-rings",
-    "pierced-dumbbell",
-    "rocket",
-    "head",
-    "tetrahedral-slice",
-    "teddy",
-    "pawn",
-    "butterfly",
-]
-TILE, ACROSS = (320, 240), 4
+SHOWN = (
+    ("cat", "brilliant", "owl", "goblet"),
+    ("linked-rings", "pierced-dumbbell", "rocket", "head"),
+    ("tetrahedral-slice", "teddy", "pawn", "butterfly"),
+)
+TILE = (320, 240)
 IN_THE_WINDOW = "cat"
 REFINED_AFTER = 120.0  # seconds, for a software renderer
 
 
 def starters() -> Image.Image:
     """A sheet of starter presets."""
-    rows = -(-len(SHOWN) // ACROSS)
-    sheet = Image.new("RGB", (TILE[0] * ACROSS, TILE[1] * rows))
-    for number, name in enumerate(SHOWN):
-        tile = Image.fromarray(hqmodel.render(hqmodel.load(name), size=TILE)).convert("RGB")
-        sheet.paste(tile, (TILE[0] * (number % ACROSS), TILE[1] * (number // ACROSS)))
+    sheet = Image.new("RGB", (TILE[0] * len(SHOWN[0]), TILE[1] * len(SHOWN)))
+    for j, row in enumerate(SHOWN):
+        for i, name in enumerate(row):
+            tile = Image.fromarray(hqmodel.render(hqmodel.load(name), size=TILE)).convert("RGB")
+            sheet.paste(tile, (TILE[0] * i, TILE[1] * j))
     return sheet
 
 
