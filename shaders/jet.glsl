@@ -153,6 +153,7 @@ float gaussian_curvature(vec3 x)
     vec3 m = total.mixed / size; // xy, yz, zx
     vec3 adjugate_straight = d.yzx * d.zxy - m.yzx * m.yzx;
     vec3 adjugate_mixed = m.zxy * m.yzx - m * d.zxy;
-    return dot(n * n, adjugate_straight) + 2.0 * dot(n * n.yzx, adjugate_mixed);
+    float curvature = dot(n * n, adjugate_straight) + 2.0 * dot(n * n.yzx, adjugate_mixed);
+    return abs(curvature) < 1e30 ? curvature : 0.0; // far out, where powers overflow
 }
 #endif

@@ -71,10 +71,10 @@ void main()
         else
             color.rgb = clay(own, normal.xyz, to_eye, fill_direction, rim_direction, key, light_around(normal.xyz, own, pixel, at));
     } else if (mode == NORMALS) {
-        color.rgb = pow(0.5 + 0.5 * normal.xyz, vec3(2.2));
+        color.rgb = linear(0.5 + 0.5 * normal.xyz);
     } else if (mode == DEPTH) {
         float share = (position.w - depth_range.x) / (depth_range.y - depth_range.x);
-        color.rgb = vec3(pow(clamp(1.0 - share, 0.02, 1.0), 2.2));
+        color.rgb = linear(vec3(clamp(1.0 - share, 0.05, 1.0)));
     } else {
         color.rgb = own * (0.25 + 0.75 * facing);
     }

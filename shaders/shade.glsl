@@ -48,3 +48,9 @@ vec3 backdrop(vec3 direction, vec2 at)
     vec3 color = mix(BACKDROP_LOW, BACKDROP_HIGH, height);
     return color * (1.05 - 0.38 * smoothstep(0.05, 1.9, dot(at, at)));
 }
+
+// From sRGB, for what is shown as it is.
+vec3 linear(vec3 c)
+{
+    return mix(pow((c + 0.055) / 1.055, vec3(2.4)), c / 12.92, lessThanEqual(c, vec3(0.04045)));
+}

@@ -20,6 +20,7 @@ def _context() -> Iterator[moderngl.Context]:
 @pytest.fixture
 def ctx(_context: moderngl.Context) -> Iterator[moderngl.Context]:
     """The context, free of errors before and after each test."""
-    assert _context.error == "GL_NO_ERROR"
-    yield _context
-    assert _context.error == "GL_NO_ERROR"
+    with _context:  # other tests may have left another context current
+        assert _context.error == "GL_NO_ERROR"
+        yield _context
+        assert _context.error == "GL_NO_ERROR"

@@ -15,7 +15,14 @@ from hqmodel.gpu.tracing import KINDS
 from hqmodel.resources import folder
 
 # What packing.py can ask for, from the barest to all.
-SCENES = ((), ("LONE",), ("LONE", "CONVEX"), ("GROUPS", "LONE", "CONVEX"), ("GROUPS", "LONE"), ("GROUPS", "HYPERBOLIC", "CARVING"))
+SCENES = (
+    (),
+    ("LONE",),
+    ("LONE", "CONVEX"),
+    ("GROUPS", "LONE", "CONVEX"),
+    ("GROUPS", "LONE"),
+    ("GROUPS", "HYPERBOLIC", "CARVING"),
+)
 SHADERS = sorted(path.name for path in folder("shaders").iterdir())
 
 

@@ -24,7 +24,8 @@ def _grazing(terms: Terms, where: Region, points: Array, directions: Array) -> N
     """Whether rays that enter at the points leave the body again too soon to be promised."""
     way = _SEEN * float(np.linalg.norm(where.size)) * np.linspace(0.02, 1, 50)
     along = points[:, None] + way[:, None] * directions[:, None]
-    return np.any(log_ratio(terms, along) <= 0, axis=1)
+    left: NDArray[np.bool_] = np.any(log_ratio(terms, along) <= 0, axis=1)
+    return left
 
 
 def _compared(ctx: moderngl.Context, scene: Scene, count: int, seed: int) -> tuple[int, int]:

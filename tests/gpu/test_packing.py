@@ -93,4 +93,3 @@ def test_colours_are_linear_and_tints_differ() -> None:
     tints = np.array([tint(number) for number in range(8)])
     apart = np.linalg.norm(tints[:, None] - tints[None], axis=2) + np.eye(8)
     assert np.min(apart) > 0.1
-

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -9,8 +10,7 @@ import moderngl
 import numpy as np
 import pytest
 
-from hqmodel.field import first_hits, region
-from hqmodel.field import Terms
+from hqmodel.field import Terms, first_hits, region
 from hqmodel.gpu import MODES, Preview, render
 from hqmodel.model import Camera, Scene, Shape, Strip
 
@@ -126,23 +126,32 @@ def test_picking_names_shape_and_strip(preview: Preview) -> None:
 
 
 def test_picking_a_cap_names_no_strip(preview: Preview) -> None:
-    preview.show(Scene(shapes=(Shape(strips=(Strip(normal=(1, 0, 0)), Strip(normal=(0, 1, 0)))),), bounds=((-2, -2, -1), (2, 2, 1))))
+    preview.show(
+        Scene(shapes=(Shape(strips=(Strip(normal=(1, 0, 0)), Strip(normal=(0, 1, 0)))),), bounds=((-2, -2, -1), (2, 2, 1)))
+    )
     seen = preview.pick(Camera(elevation=90.0), SIZE, (45, 35))
     assert seen is not None
     assert seen.point[2] == pytest.approx(1.0, abs=1e-6)
     assert seen.shape is None and seen.strip is None
 
 
+def _living() -> int:
+    """Textures and framebuffers that have not been released."""
+    kinds = (moderngl.Texture, moderngl.Framebuffer)
+    return sum(isinstance(thing, kinds) and not isinstance(thing.mglo, moderngl.InvalidObject) for thing in gc.get_objects())
+
+
 def test_objects_are_given_back(ctx: moderngl.Context) -> None:
-    """Names of textures are used again: nothing piles up over many previews."""
-    names = set()
-    for _ in range(6):
-        made = Preview(ctx)
-        made.show(ball())
-        made.draw(CAMERA, SIZE)
-        names.add(made.texture.glo)
-        made.release()
-    assert len(names) < 6
+    gc.collect()
+    before = _living()
+    made = Preview(ctx)
+    for size in (SIZE, (30, 20)):
+        made.show(solid(8.0))
+        made.draw(CAMERA, size)
+    assert _living() > before
+    made.release()
+    gc.collect()
+    assert _living() == before
 
 
 def _red() -> Scene:

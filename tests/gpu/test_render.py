@@ -65,8 +65,8 @@ def test_another_mode_is_refused(ctx: moderngl.Context) -> None:
 @pytest.mark.parametrize("view", VIEWS)
 def test_a_ball_faces_the_camera(ctx: moderngl.Context, view: str) -> None:
     camera = Camera().looking(view)
-    pixels = render(ball(), camera, SIZE, "normals", ctx=ctx)
-    np.testing.assert_allclose(_middle(pixels), 127.5 * (1 + camera.axes()[2]), atol=2.5)
+    pixels = render(ball(), camera, (97, 81), "normals", ctx=ctx)
+    np.testing.assert_allclose(_middle(pixels), 127.5 * (1 + camera.axes()[2]), atol=2)
 
 
 def test_top_is_up_and_right_is_right(ctx: moderngl.Context) -> None:
@@ -134,7 +134,7 @@ def test_the_floor_is_under_the_lowest_point(ctx: moderngl.Context) -> None:
     seen = render(spike, camera, (160, 160), samples=16, ctx=ctx).astype(int)
     alone = render(Scene(shapes=()), camera, (160, 160), samples=16, ctx=ctx).astype(int)
     column, row = camera.project([[0.0, 0.0, -1.0]], (160, 160))[0].round().astype(int)
-    assert np.min((seen - alone)[row - 1 : row + 3, column - 4 : column + 5, 1]) < -20
+    assert np.min((seen - alone)[row - 1 : row + 3, column - 4 : column + 5, 1]) < -10
 
 
 def test_a_hollow_is_darker_than_the_open(ctx: moderngl.Context) -> None:
