@@ -395,20 +395,23 @@ def a_fault_in_a_panel(hands: Hands) -> None:
 def panels_and_themes(hands: Hands) -> None:
     """Panels can be closed and come back; the light theme is kept for the next time."""
     session = hands.session
+    assert session.hidden_panels == {"Presets"}
     hands.menu("View/Panels/###panel Presets")
     hands.settle(5)
-    assert not hands.ctx.item_is_visible("//Presets")
+    assert shown(hands, "Presets")
     hands.menu("View/Panels/###panel Presets")
     hands.settle(5)
-    assert hands.ctx.window_info("//Presets").window is not None
+    assert not shown(hands, "Presets")
     hands.menu("View/Theme/###theme light")
     assert files.Settings.read().preferences["theme"] == "light"
     hands.ctx.window_close("//Scene")
     hands.settle(3)
-    assert session.hidden_panels == {"Scene"}
+    assert session.hidden_panels == {"Presets", "Scene"}
     hands.menu("View/Panels/###reset layout")
     hands.settle(5)
     assert session.hidden_panels == set()
+    assert shown(hands, "Scene")
+    assert shown(hands, "Presets")
     for keys, dialog in ((Key.f1, "Shortcuts"), (None, "About hqmodel")):
         if keys is None:
             hands.menu("Help/###about")
@@ -418,10 +421,17 @@ def panels_and_themes(hands: Hands) -> None:
         assert not session.dialogs
 
 
+def shown(hands: Hands, panel: str) -> bool:
+    window = hands.ctx.get_window_by_ref(f"//{panel}")
+    return window is not None and window.was_active
+
+
 def a_built_in_preset(hands: Hands) -> None:
     """A click in the Presets panel opens it; it has a picture; saving asks for a file."""
     session = hands.session
     preset = files.builtin()[0]
+    hands.menu("View/Panels/###panel Presets")
+    hands.settle(5)
     hands.ctx.window_focus("//Presets")
     hands.click(f"//Presets/**/##{preset.name}")
     assert session.scene == files.load(preset.path)
