@@ -16,18 +16,19 @@ MIGRATIONS: Mapping[int, Callable[[Tree], Tree]] = {}
 
 def unreadable(tree: Tree, newest: int = VERSION) -> str | None:
     """Why this object is not a preset that this program can read, as one line; None when it is one."""
-    if "format" not in tree:
-        return f'format: required, but missing (a preset says "format": "{FORMAT}")'
-    if tree["format"] != FORMAT:
-        return f'format: expected "{FORMAT}", got {shown(tree["format"])}'
-    if "version" not in tree:
-        return f'version: required, but missing (the newest is "version": {newest})'
-    version = tree["version"]
+    if tree.get("format") != FORMAT:
+        return f'format: expected "{FORMAT}", got {_got(tree, "format")}'
+    version = tree.get("version")
     if isinstance(version, bool) or not isinstance(version, (int, float)) or version != int(version) or version < 1:
-        return f"version: expected a whole number from 1 to {newest}, got {shown(version)}"
+        expected = "1" if newest == 1 else f"a whole number from 1 to {newest}"
+        return f"version: expected {expected}, got {_got(tree, 'version')}"
     if version > newest:
         return f"version: expected at most {newest}, got {shown(version)}: a newer hqmodel saved this preset, update to open it"
     return None
+
+
+def _got(tree: Tree, key: str) -> str:
+    return shown(tree[key]) if key in tree else "nothing"
 
 
 def migrated(tree: Tree, migrations: Mapping[int, Callable[[Tree], Tree]] = MIGRATIONS, newest: int = VERSION) -> Tree:

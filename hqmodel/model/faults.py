@@ -15,19 +15,20 @@ _KINDS = {
     "model": "an object",
     "tuple": "a list",
     "list": "a list",
+    "missing": "a list",  # of shapes or strips, without which there is no preset
 }
 
 
 def faults(error: ValidationError) -> list[str]:
     """One line for each thing wrong, `PLACE: expected what, got what`, in the order they were found."""
-    return [_line(item) for item in error.errors(include_url=False)]
+    return list(dict.fromkeys(_line(item) for item in error.errors(include_url=False)))
 
 
 def _line(item: Any) -> str:
     context = item.get("ctx", {})
     location = tuple(item["loc"]) + tuple(context.get("where", ()))
     if item["type"] == "missing" and location and isinstance(location[-1], int):  # a vector that is too short
-        location, item = location[:-1], {**item, "type": "too_short", "ctx": {"actual_length": location[-1]}}
+        location, item = location[:-1], {**item, "type": "too_short"}
     where = place(location)
     return f"{where}: {_wrong(item, location, context)}" if where else _wrong(item, location, context)
 
@@ -36,9 +37,8 @@ def _wrong(item: Any, location: tuple[str | int, ...], context: dict[str, Any]) 
     kind = item["type"]
     if kind == "hqmodel":
         return str(item["msg"])
-    if kind == "missing":
-        return "required, but missing"
-    return f"expected {_expected(kind, location, context)}, got {_got(item)}"
+    got = "nothing" if kind == "missing" else shown(item["input"])
+    return f"expected {_expected(kind, location, context)}, got {got}"
 
 
 def _expected(kind: str, location: tuple[str | int, ...], context: dict[str, Any]) -> str:
@@ -48,18 +48,13 @@ def _expected(kind: str, location: tuple[str | int, ...], context: dict[str, Any
     vector = FIELDS.get(pattern(location) + "[]")
     if vector is not None:
         return f"a list of {len(vector.parts)} numbers"
+    corners = FIELDS.get(pattern(location) + "[][]")
+    if corners is not None:
+        return f"two lists of {len(corners.parts)} numbers"
     if kind == "literal_error":
         return str(context["expected"]).replace("'", '"')
     if kind == "too_long":
         return f"a list of at most {context['max_length']}"
-    if kind == "too_short":
-        return "a longer list"
     if kind.startswith(("float", "int", "finite")):
         return "a finite number"
     return _KINDS.get(kind.split("_")[0], kind.replace("_", " "))
-
-
-def _got(item: Any) -> str:
-    if item["type"] in ("too_long", "too_short"):
-        return str(item["ctx"]["actual_length"])
-    return shown(item["input"])

@@ -16,7 +16,7 @@ def write_bad() -> None:
 LINES = [
     "slice: expected a finite number, got 't'",
     "shapes[0].strips[0].gamma: expected a number from 0.05 to 1000, got 0.01",
-    "shapes[0].strips[1].normal: expected a list of 3 numbers, got 2",
+    "shapes[0].strips[1].normal: expected a list of 3 numbers, got [1, 0]",
 ]
 
 
@@ -27,12 +27,12 @@ def test_a_valid_preset_is_ok(hqmodel: Command) -> None:
 
 def test_each_problem_of_each_preset_has_a_line(hqmodel: Command) -> None:
     write_bad()
-    ended = hqmodel("check", "bad.json", "ball.json", "none.json")
+    ended = hqmodel("check", "bad.json", "ball.json", "qqqq.json")
     assert ended.status == 1
     assert ended.out == "ball.json: ok\n"
     assert ended.err.splitlines() == [
         *[f"bad.json: {line}" for line in LINES],
-        "none.json: expected a file, got nothing of that name",
+        "qqqq.json: expected a file, got nothing of that name",
     ]
 
 

@@ -76,8 +76,8 @@ def test_a_byte_order_mark_is_tolerated() -> None:
         (b"[1, 2]", "expected an object at the top, got a list"),
         (b"null", "expected an object at the top, got null"),
         (b'"hqmodel"', "expected an object at the top, got 'hqmodel'"),
-        (b"{}", 'format: required, but missing (a preset says "format": "hqmodel")'),
-        (b'{"asset": {"version": "2.0"}}', 'format: required, but missing (a preset says "format": "hqmodel")'),
+        (b"{}", 'format: expected "hqmodel", got nothing'),
+        (b'{"asset": {"version": "2.0"}}', 'format: expected "hqmodel", got nothing'),
         (b'{"format": "hqmodel", "format": "hqmodel"}', "format: expected each key once, got it twice"),
         (b'{"a": [{"b": {"c": 1, "c": 2}}]}', "a[0].b.c: expected each key once, got it twice"),
         (b'{"a": [1, NaN]}', "a[1]: expected a finite number, got nan"),
@@ -101,18 +101,18 @@ def test_what_is_no_preset_is_told_in_one_line(data: bytes, problem: str) -> Non
     ("tree", "problem"),
     [
         (preset(format="gltf"), "format: expected \"hqmodel\", got 'gltf'"),
-        ({"format": "hqmodel", "shapes": []}, 'version: required, but missing (the newest is "version": 1)'),
+        ({"format": "hqmodel", "shapes": []}, "version: expected 1, got nothing"),
         (preset(version=2), "version: expected at most 1, got 2: a newer hqmodel saved this preset, update to open it"),
-        (preset(version=0), "version: expected a whole number from 1 to 1, got 0"),
-        (preset(version=True), "version: expected a whole number from 1 to 1, got true"),
-        (preset(version="1"), "version: expected a whole number from 1 to 1, got '1'"),
-        (preset(version=1.5), "version: expected a whole number from 1 to 1, got 1.5"),
-        ({"format": "hqmodel", "version": 1}, "shapes: required, but missing"),
+        (preset(version=0), "version: expected 1, got 0"),
+        (preset(version=True), "version: expected 1, got true"),
+        (preset(version="1"), "version: expected 1, got '1'"),
+        (preset(version=1.5), "version: expected 1, got 1.5"),
+        ({"format": "hqmodel", "version": 1}, "shapes: expected a list, got nothing"),
         (preset(shapes={}), "shapes: expected a list, got an object"),
         (preset(shapes=[1]), "shapes[0]: expected an object, got 1"),
-        (preset(shapes=[{}]), "shapes[0].strips: required, but missing"),
+        (preset(shapes=[{}]), "shapes[0].strips: expected a list, got nothing"),
         (shape(strips=[]), "shapes[0].strips: expected at least one strip, got []"),
-        (shape(strips=[{}]), "shapes[0].strips[0].normal: required, but missing"),
+        (shape(strips=[{}]), "shapes[0].strips[0].normal: expected a list of 3 numbers, got nothing"),
         (preset(shapes=[{}] * 257), "shapes: expected at most 256 shapes, got 257"),
         (
             preset(shapes=json.loads(GOOD)["shapes"] * 2 + [{"strips": [{}] * 1023}]),
@@ -126,7 +126,7 @@ def test_what_is_no_preset_is_told_in_one_line(data: bytes, problem: str) -> Non
         (shape(hardness=0), "shapes[0].hardness: expected a number above 0, got 0"),
         (shape(hardness="2"), "shapes[0].hardness: expected a number above 0, got '2'"),
         (shape(color=[0, 0.5, 1.5]), "shapes[0].color[2]: expected a number from 0 to 1, got 1.5"),
-        (shape(color=[0, 0.5]), "shapes[0].color: expected a list of 3 numbers, got 2"),
+        (shape(color=[0, 0.5]), "shapes[0].color: expected a list of 3 numbers, got [0, 0.5]"),
         (shape(transform={"scale": [1, 0, 1]}), "shapes[0].transform.scale[1]: expected a number above 0, got 0"),
         (
             shape(transform={"rotation": [0, 0, 0, 2]}),
@@ -138,7 +138,7 @@ def test_what_is_no_preset_is_told_in_one_line(data: bytes, problem: str) -> Non
         (strip(gamma=None), "shapes[0].strips[0].gamma: expected a number from 0.05 to 1000, got null"),
         (strip(half_width=0.0), "shapes[0].strips[0].half_width: expected a number above 0, got 0.0"),
         (strip(normal=[0, 0, 0]), "shapes[0].strips[0].normal: expected a normal that is not zero, got [0.0, 0.0, 0.0]"),
-        (strip(normal=[1, 0]), "shapes[0].strips[0].normal: expected a list of 3 numbers, got 2"),
+        (strip(normal=[1, 0]), "shapes[0].strips[0].normal: expected a list of 3 numbers, got [1, 0]"),
         (strip(sign=0), "shapes[0].strips[0].sign: expected 1 or -1, got 0"),
         (strip(sign=True), "shapes[0].strips[0].sign: expected a whole number, got true"),
         (
@@ -223,7 +223,7 @@ def test_files_that_cannot_be_read_say_why(tmp_path: Path) -> None:
             load(path)
         return str(caught.value)
 
-    assert told(tmp_path / "none.json") == f"{tmp_path / 'none.json'}: expected a file, got nothing of that name"
+    assert told(tmp_path / "qqqq.json") == f"{tmp_path / 'qqqq.json'}: expected a file, got nothing of that name"
     assert told(tmp_path) == f"{tmp_path}: expected a file, got a folder"
     assert (
         told(tmp_path / "a\nb.json") == f"{str(tmp_path / 'a') + chr(10) + 'b.json'!r}: expected a file, got nothing of that name"

@@ -32,7 +32,7 @@ def fault(path: tuple[str | int, ...], value: Any) -> list[str]:
         ((*STRIP, "gamma"), "2", "shapes[0].strips[0].gamma: expected a number from 0.05 to 1000, got '2'"),
         ((*STRIP, "gamma"), True, "shapes[0].strips[0].gamma: expected a number from 0.05 to 1000, got true"),
         ((*STRIP, "normal"), [0, 0, 0], "shapes[0].strips[0].normal: expected a normal that is not zero, got [0.0, 0.0, 0.0]"),
-        ((*STRIP, "normal"), [1, 2], "shapes[0].strips[0].normal: expected a list of 3 numbers, got 2"),
+        ((*STRIP, "normal"), [1, 2], "shapes[0].strips[0].normal: expected a list of 3 numbers, got [1, 2]"),
         ((*STRIP, "normal"), [1, "a", 2], "shapes[0].strips[0].normal[1]: expected a finite number, got 'a'"),
         ((*STRIP, "sign"), 0, "shapes[0].strips[0].sign: expected 1 or -1, got 0"),
         ((*STRIP, "half_width"), 0, "shapes[0].strips[0].half_width: expected a number above 0, got 0"),
@@ -42,6 +42,9 @@ def fault(path: tuple[str | int, ...], value: Any) -> list[str]:
         (("shapes", 0, "color"), [0, 0, 2], "shapes[0].color[2]: expected a number from 0 to 1, got 2"),
         (("shapes", 0, "groups"), {"a": {"gamma": 0}}, "shapes[0].groups.a.gamma: expected a number from 0.05 to 1000, got 0"),
         (("bounds",), [[0, 0, 0], [1, 0, 1]], "bounds[1][1]: expected a number above 0, got 0.0"),
+        (("bounds",), [], "bounds: expected two lists of 3 numbers, got []"),
+        (("bounds",), [[0, 0, 0]], "bounds: expected two lists of 3 numbers, got [[0, 0, 0]]"),
+        (("shapes", 0, "strips"), [{}], "shapes[0].strips[0].normal: expected a list of 3 numbers, got nothing"),
         (("dimension",), 4, "dimension: expected 2 or 3, got 4"),
     ],
 )
@@ -76,7 +79,7 @@ def test_limits_of_count() -> None:
     assert Scene(shapes=(shape,) * 256).strip_count == 1024
     with pytest.raises(ValidationError) as caught:
         Scene(shapes=(shape,) * 257)
-    assert faults(caught.value) == ["shapes: expected a list of at most 256, got 257"]
+    assert faults(caught.value) == ["shapes: expected a list of at most 256, got a list of 257"]
     with pytest.raises(ValidationError) as caught:
         Scene(shapes=(*(shape,) * 255, shape.changed(strips=shape.strips * 2)))
     assert faults(caught.value) == ["shapes: expected at most 1024 strips in all, got 1028"]
