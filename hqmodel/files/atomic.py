@@ -11,6 +11,9 @@ from pathlib import Path
 from secrets import token_hex
 from typing import BinaryIO
 
+# Links followed one by one, looking for /dev/stdout and its like.
+_LINKS = 8
+
 
 @contextmanager
 def atomic(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
@@ -18,8 +21,13 @@ def atomic(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
 
     After a crash at any moment the file is the old one or the new one, whole: the new one is written beside it, forced to the
     disk and moved over it. A link is followed and stays; the permissions (and the owner, where one may) stay as they were. A
-    device or a pipe is written to directly. Raises OSError.
+    device, a pipe or what this process has open already (/dev/stdout) is written to directly. Raises OSError.
     """
+    descriptor = _descriptor(path)
+    if descriptor is not None:
+        with os.fdopen(os.dup(descriptor), "wb") as stream:
+            yield stream
+        return
     try:
         old = Path(path).stat()
     except FileNotFoundError:
@@ -44,6 +52,19 @@ def atomic(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
         draft.unlink(missing_ok=True)
         raise
     _sync_folder(target.parent)
+
+
+def _descriptor(path: str | os.PathLike[str]) -> int | None:
+    """The number of the open file that a path such as /dev/stdout or /dev/fd/3 stands for; None for any other path."""
+    here = Path(path)
+    for _ in range(_LINKS):
+        folder = here.parent.resolve()
+        if here.name.isdecimal() and str(folder) in ("/dev/fd", f"/proc/{os.getpid()}/fd"):
+            return int(here.name)
+        if not here.is_symlink():
+            break
+        here = folder / here.readlink()
+    return None
 
 
 def _special(path: str | os.PathLike[str], status: os.stat_result) -> BinaryIO:

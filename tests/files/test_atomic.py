@@ -150,3 +150,13 @@ def test_killed_at_any_moment_of_a_save_the_old_file_or_the_new_one_is_there(tmp
     assert (done.returncode, done.stderr) == (0, "")
     assert len(done.stdout) == 100
     assert set(done.stdout) == {"a", "b"}
+
+
+def test_what_is_open_already_is_written_on_and_not_replaced(tmp_path: Path) -> None:
+    program = "from hqmodel.files import atomic\nwith atomic('/dev/stdout') as stream: stream.write(b'body\\n')"
+    with (tmp_path / "log").open("wb", buffering=0) as log:
+        log.write(b"head\n")
+        subprocess.run([sys.executable, "-c", program], stdout=log, cwd=ROOT, check=True)
+        log.write(b"tail\n")
+    assert (tmp_path / "log").read_bytes() == b"head\nbody\ntail\n"
+    assert left(tmp_path) == {"log"}
