@@ -43,7 +43,8 @@ def guarded(work: Callable[[], None]) -> int:
     """Do the work; whatever goes wrong is told on stderr, and the exit status says whose fault it was."""
     try:
         status = _finished(work)
-        sys.stdout.flush()
+        if sys.stdout is not None:  # it is where the program was started with its output closed
+            sys.stdout.flush()
         return status
     except KeyboardInterrupt:
         return _told("interrupted", INTERRUPTED)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from typing import Annotated, Any
 
 import typer
@@ -25,6 +26,9 @@ Set = Annotated[
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout and nothing else.")]
 Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing but errors.")]
+
+# A decimal number as people and spreadsheets write it.
+NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
 
 
 def scene_of(preset: str, slice_t: float | None, settings: list[str] | None) -> Scene:
@@ -55,8 +59,9 @@ def _put(scene: Scene, option: str, path: str, value: Any) -> Scene:
 
 
 def _value(text: str) -> Any:
-    """A value as JSON has it; what is no JSON is meant as text."""
+    """A value as JSON has it, or a number as people also write it (.5, +2, 3.); what is neither is meant as text."""
     try:
         return json.loads(text)
     except (ValueError, RecursionError):
-        return text.strip()
+        text = text.strip()
+        return float(text) if NUMBER.fullmatch(text) else text

@@ -12,7 +12,7 @@ Report = Callable[[float, str], None]
 @contextmanager
 def progress(quiet: bool = False) -> Iterator[Report]:
     """A function to tell the share done, 0..1, and what is being done."""
-    if quiet or not sys.stderr.isatty():
+    if quiet or sys.stderr is None or not sys.stderr.isatty():
         yield lambda *_: None
         return
     from rich.console import Console

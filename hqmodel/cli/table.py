@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import os
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain, islice
@@ -18,12 +17,12 @@ from numpy.typing import NDArray
 from hqmodel.model import shown
 
 from .faults import Fault
+from .options import NUMBER
 
 Array = NDArray[np.float64]
 
 BLOCK = 1 << 15
 _LONGEST_HEADER = 1 << 16
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +103,7 @@ def _one_by_one(path: Path, header: _Header, filled: list[tuple[int, str]]) -> A
             raise Fault(f"{path}: line {number}: expected {header.width} cells, got {len(cells)}")
         for column, (index, name) in enumerate(zip(header.chosen, header.columns, strict=True)):
             text = cells[index].strip()
-            if not _NUMBER.fullmatch(text) or not isfinite(float(text)):
+            if not NUMBER.fullmatch(text) or not isfinite(float(text)):
                 got = shown(text) if text else "an empty cell"
                 raise Fault(f"{path}: line {number}, column {name}: expected a finite number, got {got}")
             values[row, column] = float(text)

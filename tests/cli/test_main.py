@@ -144,6 +144,12 @@ def test_values_are_json_or_else_text(hqmodel: Command, opened: list[Any]) -> No
     assert (scene.name, shape.visible, shape.color, shape.transform.scale[1]) == ("Two words", False, (1.0, 0.5, 0.0), 0.2)
 
 
+@pytest.mark.parametrize(("text", "number"), [(".5", 0.5), ("-.5e1", -5.0), ("+2", 2.0), ("3.", 3.0), (" 007 ", 7.0)])
+def test_numbers_are_taken_as_people_write_them(hqmodel: Command, opened: list[Any], text: str, number: float) -> None:
+    assert hqmodel("ball.json", "--set", f"slice={text}").status == 0
+    assert opened[0][1](load("ball.json")).slice == number
+
+
 def test_later_changes_win(hqmodel: Command, opened: list[Any]) -> None:
     hqmodel("ball.json", "--slice", 1, "--set", "slice=2", "--set", "gamma=3", "--set", "shapes[0].strips[1].gamma=4")
     scene = opened[0][1](load("ball.json"))

@@ -102,3 +102,10 @@ def test_a_full_disk_is_the_machines_fault(folder: Path) -> None:
     with Path("/dev/full").open("w") as stdout:
         done = subprocess.run([*PROGRAM, "check", "ball.json"], stdout=stdout, stderr=subprocess.PIPE, text=True, check=False)
     assert (done.returncode, done.stderr) == (3, "output: No space left on device\n")
+
+
+def test_closed_outputs_are_no_error(folder: Path) -> None:
+    for closing in (">&-", "2>&-", "<&- >&- 2>&-"):
+        command = f"'{sys.executable}' -m hqmodel export ball.json -o a.obj --resolution 8 {closing}"
+        done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, check=False)
+        assert (done.returncode, done.stderr) == (0, ""), closing
