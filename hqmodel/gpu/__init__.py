@@ -3,7 +3,7 @@
 from .assembly import ShaderError
 from .context import GpuError, offscreen
 from .preview import Preview, Seen
-from .render import render
+from .still import render
 from .studio import MODES
 from .tables import field_values, raycast
 

@@ -14,7 +14,6 @@ _ADVICE = (
     "OpenGL 3.3 is needed and was not found: install the graphics driver, "
     "or Mesa's software renderer (on Debian and Ubuntu: libegl1 and libgl1-mesa-dri)"
 )
-_SOFTWARE = ("llvmpipe", "softpipe", "swrast", "swiftshader", "software", "gdi generic")
 
 
 class GpuError(Exception):
@@ -34,12 +33,6 @@ def offscreen() -> moderngl.Context:
         except Exception as error:  # moderngl's backends raise the bare Exception, ImportError, OSError or ValueError
             reasons.append(" ".join(str(error).split()) or type(error).__name__)
     raise GpuError(f"{_ADVICE} ({'; '.join(reasons)})")
-
-
-def software(ctx: moderngl.Context) -> bool:
-    """Whether the processor does the drawing."""
-    renderer = str(ctx.info["GL_RENDERER"]).lower()
-    return any(name in renderer for name in _SOFTWARE)
 
 
 @contextmanager

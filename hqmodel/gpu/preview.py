@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import sqrt
 from time import perf_counter
 from typing import NamedTuple
 
@@ -13,16 +14,17 @@ from numpy.typing import NDArray
 from hqmodel.field import Region, Terms, region
 from hqmodel.model import Camera, Scene
 
-from .context import framebuffer_kept, software
+from .context import framebuffer_kept
 from .floor import floor_height
 from .memory import SceneMemory
 from .picture import Picture
+from .screen import is_slow
 from .sight import camera_uniforms, depth_range, light_uniforms
 from .studio import MODES, Shot, Studio, tile_side
 
-# Seconds that a draft may take before the next is drawn coarser, or finer.
-_SLOW, _FAST = 0.07, 0.02
-_COARSEST = 4
+# Seconds that a draft should take: the next one's pixels are made coarser or finer for that.
+_DRAFT_SECONDS = 0.05
+_COARSEST = 8
 # Samples a pixel of a finished picture: with light and shadow on a graphics card, and otherwise.
 _LIT_SAMPLES, _SAMPLES = 64, 16
 
@@ -44,7 +46,7 @@ class Preview:
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self.ctx = ctx
-        self._slow = software(ctx)
+        self._slow = is_slow(ctx)
         self._memory = SceneMemory(ctx)
         self._studio: Studio | None = None
         self._picture = Picture(ctx, (16, 16))
@@ -122,10 +124,9 @@ class Preview:
         seconds = perf_counter() - started
         self._work = self._picture.refined(studio, self._memory, shot, self.samples(shot.mode))
         self._shot, self._left = shot, True
-        if seconds > _SLOW:
-            self._coarse = min(self._coarse + 1, _COARSEST)
-        elif seconds < _FAST:
-            self._coarse = max(self._coarse - 1, 1)
+        wanted = self._coarse * sqrt(seconds / _DRAFT_SECONDS)
+        if not 0.7 < wanted / self._coarse < 1.2:
+            self._coarse = round(min(max(wanted, 1), _COARSEST))
 
     def _refine(self, until: float) -> None:
         while self._left:

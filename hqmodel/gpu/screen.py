@@ -12,6 +12,7 @@ from .memory import SceneMemory, assign
 
 # Texture units from here on hold a pass's own inputs; the scene's rows have the one before.
 FIRST_UNIT = 1
+_SOFTWARE = ("llvmpipe", "softpipe", "swrast", "swiftshader", "software", "gdi generic")
 Rectangle = tuple[int, int, int, int]
 
 
@@ -71,11 +72,29 @@ class Pass:
         self._triangle.render(moderngl.TRIANGLES, vertices=3)
 
 
+class _Shared:
+    """What is made once a context and kept as long as that."""
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self.passes: dict[tuple[str, tuple[str, ...]], Pass] = {}
+        renderer = str(ctx.info["GL_RENDERER"]).lower()
+        self.slow = any(name in renderer for name in _SOFTWARE)
+
+
+def _shared(ctx: moderngl.Context) -> _Shared:
+    if not isinstance(ctx.extra, _Shared):
+        ctx.extra = _Shared(ctx)
+    return ctx.extra
+
+
 def shared_pass(ctx: moderngl.Context, fragment: str, defines: tuple[str, ...] = ()) -> Pass:
-    """The pass, made at its first use in this context and kept as long as that."""
-    if ctx.extra is None:
-        ctx.extra = {}
-    passes: dict[tuple[str, tuple[str, ...]], Pass] = ctx.extra
+    """The pass, made at its first use in this context."""
+    passes = _shared(ctx).passes
     if (fragment, defines) not in passes:
         passes[fragment, defines] = Pass(ctx, fragment, defines)
     return passes[fragment, defines]
+
+
+def is_slow(ctx: moderngl.Context) -> bool:
+    """Whether the processor does the drawing, not a graphics card."""
+    return _shared(ctx).slow

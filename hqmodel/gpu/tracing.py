@@ -12,10 +12,12 @@ from typing import Any
 import moderngl
 
 from .memory import SceneMemory
-from .screen import Rectangle, Target, shared_pass
+from .screen import Rectangle, Target, is_slow, shared_pass
 
 # Turns of all loops that a fragment may take in one draw.
 TURNS = 60_000
+# Rows of the scene times pixels that a draw may walk: a fraction of a second, on the processor and on a graphics card.
+_WORK_SLOW, _WORK = 2e7, 1e10
 # Looks at a ray's segments after which it is given up: far more than grazing rays were seen to take.
 MOST_STEPS = 3_000
 KINDS = {
@@ -37,7 +39,7 @@ def trace(
 ) -> tuple[Target, Target]:
     """Search along one ray of one of `KINDS` a pixel; returns the two targets, first the one that holds the result."""
     done, spare = states
-    steps = _steps(memory.rows)
+    steps = _steps(memory.rows, rectangle[2] * rectangle[3], is_slow(ctx))
     tracing = shared_pass(ctx, "trace.frag", (*KINDS[kind], *memory.defines))
     for taken in range(0, MOST_STEPS, steps):
         values = {**uniforms, "fresh": int(taken == 0), "steps": steps}
@@ -55,6 +57,7 @@ def _any_pending(ctx: moderngl.Context, states: Target, scratch: Target, rectang
     return bool(query.samples)
 
 
-def _steps(rows: int) -> int:
+def _steps(rows: int, pixels: int, slow: bool) -> int:
     """Steps a draw may take in a scene of so many rows (terms and strips): each walks them all, some twice."""
-    return max(1, TURNS // (2 * max(rows, 1)))
+    work = (_WORK_SLOW if slow else _WORK) / (max(rows, 1) * pixels)
+    return max(1, int(min(TURNS / (2 * max(rows, 1)), work)))

@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 from hqmodel.field import Terms, region
 from hqmodel.model import Camera, Scene
 
-from .context import framebuffer_kept, offscreen, software
+from .context import framebuffer_kept, offscreen
 from .floor import floor_height
 from .memory import SceneMemory
 from .picture import BATCH, Picture
 from .preview import shot_of
+from .screen import is_slow
 from .studio import Shot, Studio, tile_side, tiles
 
 # Samples a pixel.
@@ -61,7 +62,7 @@ def _drawn(
 ) -> NDArray[np.uint8]:
     """All of the shot, part by part."""
     result = np.empty((shot.size[1], shot.size[0], 4), dtype=np.uint8)
-    studio = Studio(ctx, tile_side(memory.rows, software(ctx)))
+    studio = Studio(ctx, tile_side(memory.rows, is_slow(ctx)))
     parts = tiles(shot.size, _PART)
     for number, (left, bottom, width, height) in enumerate(parts):
         picture = Picture(ctx, (width, height))
