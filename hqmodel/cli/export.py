@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import isfinite
 from pathlib import Path
 from time import perf_counter
 from typing import Annotated, Any, Literal
@@ -50,11 +49,11 @@ def export(
     The ending says the format: .obj, .ply, .stl, .glb or .3mf. Several -o write several files from one mesh.
     """
     started = perf_counter()
-    if size is not None and not (isfinite(size) and size > 0):
-        raise Fault(f"--size: expected a number above 0, got {size}", USAGE)
     scene = scene_of(preset, slice_t, settings)
     from hqmodel import mesh  # late: a preset at fault is told at once
 
+    if size is not None and not mesh.SIZES[0] <= size <= mesh.SIZES[1]:
+        raise Fault(f"--size: expected a number from {mesh.SIZES[0]:g} to {mesh.SIZES[1]:g}, got {size:g}", USAGE)
     checked(output, mesh.FORMATS, [preset])
     try:
         with progress(quiet) as report:

@@ -4,12 +4,13 @@ from .build import MAX_RESOLUTION, Progress, polygonize
 from .formats import write
 from .measure import report
 from .mesh import Mesh, MeshError
-from .placing import FORMATS, METRES, UP_AXIS, fitted, sized
+from .placing import FORMATS, METRES, SIZES, UP_AXIS, fitted, sized
 
 __all__ = [
     "FORMATS",
     "MAX_RESOLUTION",
     "METRES",
+    "SIZES",
     "UP_AXIS",
     "Mesh",
     "MeshError",

@@ -33,6 +33,10 @@ from .weld import Piece, Weld
 
 Progress = Callable[[float, str], None]
 MAX_RESOLUTION = 2048
+# Samples this near to the level are rounding: fields that stay at their level throughout (an octahedron's slices) have no body.
+_ROUNDING = 1e-13
+# The coarsest step between numbers, as a share of the longest side.
+_COARSEST = 1e-7
 
 
 def polygonize(scene: Scene, resolution: int = 256, progress: Progress | None = None, *, shading: bool = True) -> Mesh:
@@ -50,6 +54,7 @@ def polygonize(scene: Scene, resolution: int = 256, progress: Progress | None = 
     terms = Terms.of(scene)
     where = region(scene, terms)
     _must_exist(scene, where)
+    _must_be_near(where)
     mirrored = mirror_axes(terms, where)
     grid = make_grid(where, resolution, mirrored)
     weld = Weld()
@@ -78,6 +83,13 @@ def _must_exist(scene: Scene, where: Region) -> None:
         raise MeshError(f"no surface: {reason}")
     if not where.bounded:
         raise MeshError("bounds: expected a box to cut the body by, as it runs on without end, got none")
+
+
+def _must_be_near(where: Region) -> None:
+    """Raise MeshError where float64 itself is too coarse for the body's size."""
+    away, side = float(np.max(np.abs([where.low, where.high]))), float(np.max(where.size))
+    if not np.spacing(away) < _COARSEST * side:
+        raise MeshError(f"expected a body nearer to the origin, got one {side:.3g} long at a distance of {away:.3g}")
 
 
 def _pieces(scene: Scene, terms: Terms, grid: Grid, shading: bool, tell: Progress) -> Iterator[Piece | None]:
@@ -145,6 +157,7 @@ def _samples(terms: Terms, grid: Grid, blocks: Blocks) -> Array:
     points = np.empty((len(blocks), NODES, NODES, NODES, 3))
     points[..., 0], points[..., 1], points[..., 2] = x[:, :, None, None], y[:, None, :, None], z[:, None, None, :]
     values = near_linear(terms, log_ratio(terms, points))
+    values[np.abs(values) < _ROUNDING] = -_ROUNDING
     beyond = [outside[i] for outside, i in zip(grid.outside, index, strict=True)]
     if any(part.any() for part in beyond):
         bx, by, bz = beyond

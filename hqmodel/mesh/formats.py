@@ -16,17 +16,23 @@ import numpy as np
 from hqmodel.field import srgb_to_linear
 
 from .mesh import Array, Mesh, MeshError
-from .placing import FORMATS
+from .placing import FORMATS, SIZES
 
 _ROWS = 1 << 15
-# A text file keeps positions to this share of the longest side.
-_DIGITS = 8
+# Text files keep positions to this many digits of the longest side, wherever the body lies.
+_DIGITS = 9
+# Binary ones keep float32: near the origin far more than enough, far from it at last too coarse for the body's own size.
+_FLOAT32 = frozenset({".ply", ".stl", ".glb"})
+_FAR = 10.0
+# How far off, as a share of the longest side, a vertex may come to lie by that.
+_OFF = 1e-4
 
 
 def write(mesh: Mesh, stream: BinaryIO, suffix: str, name: str = "hqmodel") -> None:
     """Write the mesh, already `fitted` to the format, to a binary stream. The same mesh gives the same bytes.
 
-    Normals and colours go with it where it has them and the format knows them. Raises MeshError for an unknown ending.
+    Normals and colours go with it where it has them and the format knows them. Raises MeshError for an unknown ending, and for
+    a mesh so large, so small or so far off that the format cannot hold it.
     """
     writers: dict[str, Callable[[Mesh, BinaryIO, str], None]] = {
         ".obj": _obj,
@@ -37,7 +43,22 @@ def write(mesh: Mesh, stream: BinaryIO, suffix: str, name: str = "hqmodel") -> N
     }
     if suffix not in writers:
         raise MeshError(f"expected a file name ending in one of {', '.join(FORMATS)}, got {suffix or 'none'!r}")
+    _must_fit(mesh, suffix)
     writers[suffix](mesh, stream, " ".join(name.split()) or "hqmodel")
+
+
+def _must_fit(mesh: Mesh, suffix: str) -> None:
+    """Raise MeshError for what the file's digits would make another body of."""
+    low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
+    side, away = float(np.max(high - low)), float(np.max(np.abs([low, high])))
+    if not SIZES[0] <= side <= SIZES[1]:
+        raise MeshError(f"size: expected a longest side from {SIZES[0]:g} to {SIZES[1]:g}, got {side:g}")
+    if suffix in _FLOAT32 and away > _FAR * side:
+        corners = mesh.vertices.astype(np.float32)[mesh.faces]
+        coarse = np.spacing(np.float32(away)) > _OFF * side
+        if coarse or any(np.any(np.all(corners[:, i] == corners[:, i - 1], axis=1)) for i in range(3)):
+            where = f"a body {side:.3g} long at a distance of {away:.3g}"
+            raise MeshError(f"expected a body nearer to the origin, as {suffix} keeps 7 digits (.obj keeps more), got {where}")
 
 
 def _obj(mesh: Mesh, stream: BinaryIO, name: str) -> None:
@@ -147,8 +168,8 @@ def _member(path: str) -> zipfile.ZipInfo:
 
 
 def _fixed(vertices: Array) -> str:
-    """A number format that keeps positions to 1e-8 of the mesh's size."""
-    size = float(np.max(np.abs(vertices), initial=1e-300))
+    """A number format that keeps positions to `_DIGITS` digits of the longest side."""
+    size = float(np.max(np.ptp(vertices, axis=0)))
     return f"%.{min(max(_DIGITS - 1 - floor(log10(size)), 0), 60)}f"
 
 

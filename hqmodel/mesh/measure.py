@@ -32,14 +32,17 @@ def report(mesh: Mesh) -> dict[str, Any]:
     corners = mesh.vertices[mesh.faces]
     origin = mesh.vertices.mean(axis=0)
     a, b, c = (corners[:, i] - origin for i in range(3))
-    across = np.cross(b - a, c - a)
+    with np.errstate(over="ignore", invalid="ignore"):
+        across = np.cross(b - a, c - a)
+        volume = float(np.einsum("ij,ij->", a, across) / 6)
+        area = float(np.linalg.norm(across, axis=1).sum() / 2)
     watertight, edges = _closed(mesh)
     return {
         "vertices": len(mesh.vertices),
         "faces": len(mesh.faces),
         "watertight": watertight,
-        "volume": float(np.einsum("ij,ij->", a, across) / 6),
-        "area": float(np.linalg.norm(across, axis=1).sum() / 2),
+        "volume": volume,
+        "area": area,
         "bounds": [mesh.vertices.min(axis=0).tolist(), mesh.vertices.max(axis=0).tolist()],
         "euler_number": len(mesh.vertices) - edges + len(mesh.faces),
         "surface_error": mesh.surface_error,

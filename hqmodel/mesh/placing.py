@@ -12,6 +12,8 @@ from .mesh import Mesh, MeshError
 Unit = Literal["mm", "cm", "m", "in"]
 Up = Literal["y", "z"]
 
+# Longest sides that files are written of: what reads them squares them, in float32.
+SIZES = 1e-15, 1e15
 METRES: dict[str, float] = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254}
 FORMATS = {
     ".obj": "Wavefront OBJ",
@@ -28,12 +30,12 @@ _FILE_UNIT: dict[str, Unit] = {".stl": "mm", ".glb": "m", ".3mf": "mm"}
 def sized(mesh: Mesh, size: float | None) -> Mesh:
     """The mesh scaled about the origin so that its longest side is `size`; as it is without one.
 
-    Raises MeshError for a size that is not a number above 0.
+    Raises MeshError for a size out of range.
     """
     if size is None:
         return mesh
-    if not (np.isfinite(size) and size > 0):
-        raise MeshError(f"size: expected a number above 0, got {size:g}")
+    if not SIZES[0] <= size <= SIZES[1]:
+        raise MeshError(f"size: expected a number from {SIZES[0]:g} to {SIZES[1]:g}, got {size:g}")
     return _scaled(mesh, size / float(np.max(np.ptp(mesh.vertices, axis=0))))
 
 

@@ -92,8 +92,8 @@ def test_colours_and_normals_can_be_left_out(hqmodel: Command) -> None:
         (["-o", "a"], 2, "a: expected a file name that ends in .obj or .ply or .stl or .glb or .3mf, got no ending"),
         (["-o", "no/a.obj"], 2, "no/a.obj: expected a file in a folder that exists, got no"),
         (["-o", "a.obj", "-o", "./a.obj"], 2, "-o: expected each file once, got a.obj, a.obj"),
-        (["-o", "a.obj", "--size", "0"], 2, "--size: expected a number above 0, got 0.0"),
-        (["-o", "a.obj", "--size", "nan"], 2, "--size: expected a number above 0, got nan"),
+        (["-o", "a.obj", "--size", "0"], 2, "--size: expected a number from 1e-15 to 1e+15, got 0"),
+        (["-o", "a.obj", "--size", "nan"], 2, "--size: expected a number from 1e-15 to 1e+15, got nan"),
         (["-o", "dir.obj"], 2, "dir.obj: expected a file that can be written, got: Is a directory"),
     ],
 )

@@ -89,7 +89,7 @@ def test_five_of_a_unit(suffix: str, unit: str, expected: float) -> None:
 
 def test_sizes_that_are_none() -> None:
     for size in (0.0, -1.0, float("nan"), float("inf")):
-        with pytest.raises(MeshError, match="size: expected a number above 0"):
+        with pytest.raises(MeshError, match="size: expected a number from 1e-15"):
             sized(body(), size)
 
 
@@ -154,3 +154,36 @@ def test_text_keeps_small_and_large_bodies(scale: float) -> None:
 def test_unknown_endings() -> None:
     with pytest.raises(MeshError, match=r"expected a file name ending in one of \.obj, \.ply, \.stl, \.glb, \.3mf, got '\.fbx'"):
         write(body(), io.BytesIO(), ".fbx")
+
+
+def placed(scale: float, away: float) -> Mesh:
+    """A ball of that radius, so far from the origin."""
+    strips = tuple(Strip(normal=n) for n in ((1, 0, 0), (0, 1, 0), (0, 0, 1)))
+    return polygonize(
+        Scene(shapes=(Shape(strips=strips, transform=Transform(scale=(scale,) * 3, translation=(away, 0, 0))),)), 32
+    )
+
+
+@pytest.mark.parametrize("suffix", [".obj", ".3mf"])
+def test_text_keeps_a_small_body_far_away_whole(suffix: str) -> None:
+    mesh = placed(1.0, 1e5)
+    loaded = read(written(fitted(mesh, suffix, up="z"), suffix), suffix)
+    assert loaded.is_watertight
+    assert len(np.unique(np.asarray(loaded.vertices), axis=0)) == len(mesh.vertices)
+
+
+@pytest.mark.parametrize("suffix", [".ply", ".stl", ".glb"])
+@pytest.mark.parametrize(("scale", "away"), [(1.0, 1e5), (1.0, 1e4), (1e-3, 3.0)])
+def test_what_single_precision_cannot_hold_is_refused(suffix: str, scale: float, away: float) -> None:
+    with pytest.raises(MeshError, match="expected a body nearer to the origin"):
+        written(fitted(placed(scale, away), suffix), suffix)
+
+
+@pytest.mark.parametrize("suffix", FORMATS)
+@pytest.mark.parametrize("scale", [1e-30, 1e30])
+def test_sizes_beyond_all_use_are_refused(suffix: str, scale: float) -> None:
+    mesh = placed(scale, 0.0)
+    report(mesh)
+    with pytest.raises(MeshError, match="size: expected a longest side from"):
+        written(fitted(mesh, suffix), suffix)
+    assert read(written(sized(mesh, 100.0), suffix), suffix).volume == pytest.approx(4.18879 * 50**3, rel=0.02)

@@ -18,6 +18,17 @@ from ..gpu.scenes import random_scene
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
 
+def tetrahedral(gamma: float, t: float) -> Scene:
+    """A slice through the four-dimensional shape of figures 11 and 12; at gamma 1 and t 1/2 H is 1 throughout a tetrahedron."""
+    rows = ((0.5, 0.5, 0.5), (0.5, -0.5, -0.5), (-0.5, 0.5, -0.5), (-0.5, -0.5, 0.5))
+    return Scene(slice=t, shapes=(Shape(strips=tuple(Strip(normal=row, slice=0.5, gamma=gamma) for row in rows)),))
+
+
+def ball(away: float) -> Scene:
+    strips = tuple(Strip(normal=n) for n in (X, Y, Z))
+    return Scene(shapes=(Shape(strips=strips, transform=Transform(translation=(away, 0.0, 0.0))),))
+
+
 def distance(scene: Scene, mesh: Mesh) -> NDArray[np.float64]:
     """Of each vertex from the surface, to first order."""
     linear, slope = near_linear_gradient(Terms.of(scene), mesh.vertices)
@@ -185,6 +196,8 @@ def test_the_stated_error_is_what_rays_find() -> None:
     ("scene", "message"),
     [
         (Scene(shapes=()), "no surface: there is no visible shape"),
+        (tetrahedral(1.0, 0.5), "no surface: the field does not reach its level anywhere at this resolution"),
+        (ball(1e12), "expected a body nearer to the origin, got one 2 long at a distance of 1e"),
         (case("sphere").scene.changed(level=9.0), "no surface: the field is below its level everywhere"),
         (Scene(shapes=(Shape(strips=(Strip(normal=X), Strip(normal=Y))),)), "bounds: expected a box to cut the body by"),
     ],
