@@ -20,9 +20,11 @@ from .faults import guarded
 
 
 class Commands(TyperGroup):
-    """The commands; where none is named, `edit` is meant, with whatever is given."""
+    """The commands; where none is named, `edit` is meant, with whatever is given. --version means the same after each."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        if "--version" in args[: args.index("--") if "--" in args else None]:
+            args = ["--version"]
         own = {"-h", "--help", "--version"}
         if not args or args[0] not in own | set(self.commands):
             self._refuse_slip(ctx, args[0] if args else "")

@@ -33,6 +33,13 @@ def test_the_version_is_the_packages(hqmodel: Command) -> None:
     assert hqmodel("--version") == Ended(0, f"hqmodel {package.__version__}\n", "")
 
 
+@pytest.mark.parametrize("command", ["edit", "export", "render", "sample", "raycast", "check", "presets"])
+def test_every_command_knows_the_version(hqmodel: Command, command: str) -> None:
+    assert hqmodel(command, "--version") == Ended(0, f"hqmodel {package.__version__}\n", "")
+    assert hqmodel(command, "ball.json", "--version") == Ended(0, f"hqmodel {package.__version__}\n", "")
+    assert hqmodel(command, "--", "--version").out != f"hqmodel {package.__version__}\n"
+
+
 def test_help_names_every_command_whole(hqmodel: Command) -> None:
     ended = hqmodel("--help")
     assert ended.status == 0
