@@ -12,15 +12,15 @@ from .terms import Array, Terms
 
 
 def mixed_colors(scene: Scene, terms: Terms, points: ArrayLike) -> Array:
-    """sRGB colours (..., 3) at points (..., 3): mixed in linear light by each term's share of the sum, carving ones included.
+    """sRGB colours (..., 3) at points (..., 3): those of the shapes that add, mixed in linear light by their shares of the sum.
 
-    Where a negative shape has cut, the cut takes its colour in the measure in which it holds back the sum.
+    Where a negative shape has carved, the body shows the colour it has inside.
     """
-    if len({scene.shapes[i].color for i in terms.term_source}) == 1:
-        color = np.array(scene.shapes[terms.term_source[0]].color)
-        return np.broadcast_to(color, np.shape(points)).copy()
-    linear = srgb_to_linear(np.array([scene.shapes[i].color for i in terms.term_source], dtype=float).reshape(-1, 3))
-    return linear_to_srgb(term_weights(terms, points) @ linear)
+    adding = terms.keep(terms.positive)
+    colors = np.array([scene.shapes[i].color for i in adding.term_source], dtype=float).reshape(-1, 3)
+    if len(np.unique(colors, axis=0)) == 1:
+        return np.broadcast_to(colors[0], np.shape(points)).copy()
+    return linear_to_srgb(term_weights(adding, points) @ srgb_to_linear(colors))
 
 
 def srgb_to_linear(color: Array) -> Array:
