@@ -18,7 +18,7 @@ def ball(x: float, color: tuple[float, float, float], coefficient: float = 1.0) 
 def test_halfway_between_two_shapes_their_light_is_halved() -> None:
     scene = Scene(shapes=(ball(-1, RED), ball(1, BLUE)))
     got = mixed_colors(scene, Terms.of(scene), [(0.0, 0.3, 0.2), (-1.9, 0, 0), (1.9, 0, 0)])
-    half = linear_to_srgb(np.array(0.5))
+    half = float(linear_to_srgb(np.array(0.5)))
     np.testing.assert_allclose(got, [(half, 0, half), RED, BLUE], atol=1e-6)
 
 
