@@ -3,6 +3,18 @@
 
 #include "field.glsl"
 
+// Whether a term is more than negligible at x, told from its strips alone.
+bool matters(Term term, vec3 x)
+{
+    int end = int(term.first) + int(term.count);
+    for (int row = int(term.first); row < end; ++row) {
+        Strip strip = strip_row(row);
+        if (abs(strip_function(strip, x)) > strip.reach * 1.001)
+            return false;
+    }
+    return true;
+}
+
 // A term's part in the slope of F at x: ln (|c| beta exp T) relative to the surface, with its sign apart.
 float log_weight(Term term, vec3 x)
 {
@@ -32,6 +44,8 @@ Touch touch_at(vec3 x)
     float strongest = -1.0;
     for (int k = 0; k < term_count; ++k) {
         Term term = term_row(k);
+        if (!matters(term, x))
+            continue;
         float weight = log_weight(term, x) * 1.44269504;
         int row = int(term.first);
         int end = row + int(term.count);
@@ -71,7 +85,7 @@ vec3 mixed_color(vec3 x)
     vec2 sum = vec2(NOTHING, 0.0);
     for (int k = 0; k < term_count; ++k) {
         Term term = term_row(k);
-        if (term.adds < 0.0)
+        if (term.adds < 0.0 || !matters(term, x))
             continue;
         float rise = term_value(term, x) - sum.x;
         float scale = exp(-abs(rise));

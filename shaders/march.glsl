@@ -17,7 +17,11 @@ const float HIT = 2.0;
 const float INSIDE = 3.0;     // the ray began in the body
 const float MISS = 4.0;
 
-const float SHORTEST = 4e-6;  // lengths in the unit frame
+#ifdef ANY_HIT
+const float SHORTEST = 5e-4;  // lengths in the unit frame; light need not be exact
+#else
+const float SHORTEST = 4e-6;
+#endif
 const int NEWTON_STEPS = 64;
 
 struct March {
@@ -27,45 +31,19 @@ struct March {
     float phase;
 };
 
-#ifdef LONE
-// The part of the ray between the lone shape's bounding planes.
-vec2 between_planes(Ray ray)
-{
-    vec2 span = vec2(0.0, ray.far);
-    if (lone_constant <= 0.0)
-        return vec2(1.0, -1.0);
-    int count = int(term_row(0).count);
-    int first = int(term_row(0).first);
-    float exponent = 1.0;
-    for (int i = first; i < first + count; ++i) {
-        Strip strip = strip_row(i);
-        exponent = strip.members > 0.0 ? strip.outer : exponent;
-        float reach = exp2(log2(lone_constant) / exponent) * (1.0 + 1e-6);
-        float h = strip_function(strip, ray.origin);
-        float rate = dot(strip.normal, ray.direction);
-        if (abs(rate) < 1e-12 * (1.0 + abs(h))) {
-            if (abs(h) > reach)
-                return vec2(1.0, -1.0);
-            continue;
-        }
-        float middle = -h / rate;
-        float half_length = abs(reach / rate);
-        span = vec2(max(span.x, middle - half_length), min(span.y, middle + half_length));
-    }
-    return span;
-}
-#endif
-
+// The start of a search; to go on with one that was begun before, the terms must have been listed by this.
 March begin_march(Ray ray)
 {
     March march = March(0.0, 0.0, ray.far, MISS);
     if (term_count == 0 || !(ray.far >= 0.0))
         return march;
 #ifdef LONE
-    vec2 span = between_planes(ray);
+    vec2 span = term_reach(term_row(0), ray.origin, ray.direction, 0.0, ray.far);
+#else
+    vec2 span = list_terms(ray.origin, ray.direction, ray.far);
+#endif
     march.t = max(0.0, span.x - SHORTEST); // a step back, lest rounding puts the start into the body
     march.far = span.y;
-#endif
     march.dt = 0.5 * (march.far - march.t);
     march.phase = march.t <= march.far ? SEARCHING : MISS;
     return march;
@@ -143,7 +121,7 @@ void march_on(Ray ray, inout March march)
         march.phase = march.phase == BRACKETED ? HIT : MISS;
         return;
     }
-    Span ahead = look_ahead(ray.origin + march.t * ray.direction, dt * ray.direction);
+    Span ahead = look_ahead(ray.origin + march.t * ray.direction, dt * ray.direction, march.t, dt);
     if (march.t == 0.0 && ahead.ends.x > 0.0) {
         march.phase = INSIDE;
         return;

@@ -51,10 +51,8 @@ void main()
 {
     ivec2 at = ivec2(gl_FragCoord.xy);
     Ray ray = this_ray(at);
-    March march;
-    if (fresh != 0) {
-        march = begin_march(ray);
-    } else {
+    March march = begin_march(ray);
+    if (fresh == 0) {
         vec4 before = texelFetch(state, at, 0);
         march = March(before.x, before.y, before.z, before.w);
     }

@@ -93,7 +93,7 @@ STRIP = Row(
         Field("sigma", 1, "its group's sign"),
         Field("members", 1, "strips in the group that begins here; 0 for those that follow"),
         Field("tint", 3, "its colour in the strips mode, linear light"),
-        Field("number", 1, "its place in the scene: the same for mirror images"),
+        Field("reach", 1, "|h| where its term matters is at most this; negative where it never does"),
     ),
 )
 ROWS = (TERM, STRIP)

@@ -20,6 +20,8 @@ from .layout import STRIP, TERM, WIDTH
 Array = NDArray[np.float64]
 # The largest number that is packed: products of two of them, and sums of those, stay inside float32.
 LIMIT = 1e18
+# Terms that add up to less than this share of the level move the surface by less than can be seen.
+NEGLIGIBLE = 1e-7
 _GOLDEN = 0.61803398875
 
 
@@ -129,6 +131,22 @@ def _strip_rows(scene: Scene, terms: Terms, frame: Frame) -> NDArray[np.void]:
     rows["members"][terms.group_start] = np.diff(terms.group_start, append=len(terms.inner))
     before = np.cumsum([0, *(len(shape.strips) for shape in scene.shapes)])
     shape, index = terms.strip_source.T
-    rows["number"] = before[shape] + index
-    rows["tint"] = linear([tint(int(number)) for number in rows["number"]]).reshape(-1, 3)
+    rows["tint"] = linear([tint(int(number)) for number in before[shape] + index]).reshape(-1, 3)
+    rows["reach"] = _reaches(terms)
     return rows
+
+
+def _reaches(terms: Terms) -> Array:
+    """(S,) the largest |h| at which a strip's term is more than negligible beside the level: T >= ln w - ln (K / NEGLIGIBLE).
+
+    For a lone shape the largest |h| on its surface. Limitless for hyperbolic terms, and where there is no level to measure by.
+    """
+    if terms.level <= 0:
+        return np.full(len(terms.inner), LIMIT)
+    margin = 0.0 if _is_lone(terms) else np.log(max(len(terms), 1) / NEGLIGIBLE)
+    with np.errstate(over="ignore"):
+        slack = (terms.log_coefficient - np.log(terms.level) + margin) / np.maximum(terms.hardness, 1e-300)
+        most = (terms.constant + slack)[terms.term_of_group]
+        reach = np.where(most > 0, np.maximum(most, 1e-300) ** (1 / terms.outer) * (1 + 1e-6), -1.0)
+    endless = np.minimum.reduceat(terms.group_sign, terms.term_start)[terms.term_of_group] < 0 if len(terms) else reach < 0
+    return np.where(endless, LIMIT, np.minimum(reach, LIMIT))[terms.group_of_strip]

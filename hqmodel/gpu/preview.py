@@ -68,6 +68,8 @@ class Preview:
         self._memory.write(scene, self._terms, self.region)
         self._floor = floor_height(self.ctx, self._memory, self.region)
         self._shot = None
+        if self._slow:
+            self._coarse = max(self._coarse, min(self._memory.rows // 64, _COARSEST))
 
     def draw(self, camera: Camera, size: tuple[int, int], mode: str = "clay", quick: bool = False, budget: float = 0.03) -> bool:
         """Bring the picture of that size (width, height) nearer to finished, for about `budget` seconds.

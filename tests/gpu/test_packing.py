@@ -68,7 +68,6 @@ def test_mirror_images_share_their_strips_tints() -> None:
     scene = scene.changed(shapes=(scene.shapes[0].changed(mirror=("x",)),))
     packed, _ = _packed(scene)
     assert len(packed.terms) == 2
-    assert packed.strips["number"].tolist() == [0, 1, 2, 0, 1, 2]
     np.testing.assert_array_equal(packed.strips["tint"][:3], packed.strips["tint"][3:])
 
 
