@@ -77,6 +77,7 @@ class _Shared:
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self.passes: dict[tuple[str, tuple[str, ...]], Pass] = {}
+        self.query = ctx.query(samples=True)  # moderngl never gives one back
         renderer = str(ctx.info["GL_RENDERER"]).lower()
         self.slow = any(name in renderer for name in _SOFTWARE)
 
@@ -98,3 +99,11 @@ def shared_pass(ctx: moderngl.Context, fragment: str, defines: tuple[str, ...] =
 def is_slow(ctx: moderngl.Context) -> bool:
     """Whether the processor does the drawing, not a graphics card."""
     return _shared(ctx).slow
+
+
+def drawn_pixels(ctx: moderngl.Context, fragment: str, target: Target, rectangle: Rectangle, state: moderngl.Texture) -> int:
+    """How many pixels the pass over `state` draws, and does not discard."""
+    query = _shared(ctx).query
+    with query:
+        shared_pass(ctx, fragment).draw(target, rectangle, {}, {"state": state})
+    return int(query.samples)

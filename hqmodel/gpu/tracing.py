@@ -12,7 +12,7 @@ from typing import Any
 import moderngl
 
 from .memory import SceneMemory
-from .screen import Rectangle, Target, is_slow, shared_pass
+from .screen import Rectangle, Target, drawn_pixels, is_slow, shared_pass
 
 # Turns of all loops that a fragment may take in one draw.
 TURNS = 60_000
@@ -45,16 +45,9 @@ def trace(
         values = {**uniforms, "fresh": int(taken == 0), "steps": steps}
         tracing.draw(spare, rectangle, values, {**inputs, "state": done.texture}, memory)
         done, spare = spare, done
-        if not _any_pending(ctx, done, spare, rectangle):
+        if not drawn_pixels(ctx, "pending.frag", spare, rectangle, done.texture):
             break
     return done, spare
-
-
-def _any_pending(ctx: moderngl.Context, states: Target, scratch: Target, rectangle: Rectangle) -> bool:
-    query = ctx.query(samples=True)
-    with query:
-        shared_pass(ctx, "pending.frag").draw(scratch, rectangle, {}, {"state": states.texture})
-    return bool(query.samples)
 
 
 def _steps(rows: int, pixels: int, slow: bool) -> int:

@@ -43,4 +43,7 @@ def test_software_renderers_are_known_by_name(renderer: str, slow: bool) -> None
         def __init__(self) -> None:
             self.info, self.extra = {"GL_RENDERER": renderer}, None
 
+        def query(self, samples: bool) -> None:
+            assert samples
+
     assert is_slow(Named()) == slow  # type: ignore[arg-type]
