@@ -175,8 +175,15 @@ vec2 list_terms(vec3 x, vec3 direction, float far)
 {
     vec2 span = vec2(far, 0.0);
     listed_count = 0;
+    vec3 slowness = 1.0 / (mix(vec3(-1.0), vec3(1.0), greaterThanEqual(direction, vec3(0.0))) * max(abs(direction), 1e-18));
     for (int k = 0; k < term_count; ++k) {
         Term term = term_row(k);
+        vec3 first = (term.low - x) * slowness;
+        vec3 second = (term.high - x) * slowness;
+        vec3 into = min(first, second);
+        vec3 out_of = max(first, second);
+        if (max(max(into.x, into.y), max(into.z, 0.0)) > min(min(out_of.x, out_of.y), min(out_of.z, far)))
+            continue;
         vec2 reach = term_reach(term, x, direction, 0.0, far);
         if (reach.x > reach.y)
             continue;

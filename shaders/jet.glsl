@@ -6,6 +6,8 @@
 // Whether a term is more than negligible at x, told from its strips alone.
 bool matters(Term term, vec3 x)
 {
+    if (any(lessThan(x, term.low)) || any(greaterThan(x, term.high)))
+        return false;
     int end = int(term.first) + int(term.count);
     for (int row = int(term.first); row < end; ++row) {
         Strip strip = strip_row(row);

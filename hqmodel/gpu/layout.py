@@ -75,12 +75,12 @@ TERM = Row(
         Field("count", 1, "how many strips it has"),
         Field("hardness", 1, "beta"),
         Field("constant", 1, "C"),
+        Field("low", 3, "the box where it matters, in the unit frame"),
         Field("log_coefficient", 1, "ln |c|"),
+        Field("high", 3, ""),
         Field("adds", 1, "the sign of c: 1 adds, -1 carves"),
-        Field("hyperbolic", 1, "1 where any sigma is negative"),
-        Field("shape", 1, "the shape it comes from"),
         Field("color", 3, "linear light"),
-        Field("spare", 1, "0"),
+        Field("hyperbolic", 1, "1 where any sigma is negative"),
     ),
 )
 STRIP = Row(

@@ -84,7 +84,8 @@ def pack(scene: Scene, terms: Terms, frame: Frame) -> Packed:
         if np.all(terms.outer >= 1) and np.all(terms.inner >= 1):
             defines.append("CONVEX")
             uniforms["least_exponent"] = float(np.min(terms.outer))
-    return Packed(_term_rows(scene, terms, first_strip), _strip_rows(scene, terms, frame), uniforms, tuple(defines))
+    strips = _strip_rows(scene, terms, frame)
+    return Packed(_term_rows(scene, terms, first_strip, strips), strips, uniforms, tuple(defines))
 
 
 def linear(srgb: ArrayLike) -> Array:
@@ -103,7 +104,7 @@ def _is_lone(terms: Terms) -> bool:
     return len(terms) == 1 and terms.level > 0 and not terms.hyperbolic and bool(terms.positive[0])
 
 
-def _term_rows(scene: Scene, terms: Terms, first_strip: NDArray[np.intp]) -> NDArray[np.void]:
+def _term_rows(scene: Scene, terms: Terms, first_strip: NDArray[np.intp], strips: NDArray[np.void]) -> NDArray[np.void]:
     rows = np.zeros(len(terms), dtype=TERM.dtype)
     rows["first"] = first_strip
     rows["count"] = np.diff(first_strip, append=len(terms.inner))
@@ -113,9 +114,29 @@ def _term_rows(scene: Scene, terms: Terms, first_strip: NDArray[np.intp]) -> NDA
     rows["adds"] = np.sign(terms.coefficient)
     if len(terms):
         rows["hyperbolic"] = np.minimum.reduceat(terms.group_sign, terms.term_start) < 0
-    rows["shape"] = terms.term_source
     rows["color"] = linear([scene.shapes[shape].color for shape in terms.term_source]).reshape(-1, 3)
+    rows["low"], rows["high"] = -LIMIT, LIMIT
+    for count in np.unique(rows["count"]):
+        chosen = np.flatnonzero(rows["count"] == count)
+        own = strips[first_strip[chosen][:, None] + np.arange(int(count))]
+        rows["low"][chosen], rows["high"][chosen] = _boxes(*(own[name].astype(float) for name in ("normal", "offset", "reach")))
     return rows
+
+
+def _boxes(normal: Array, offset: Array, reach: Array) -> tuple[Array, Array]:
+    """Low and high corners, (k, 3) each, of boxes around |normal . x + offset| <= reach, from (k, s, 3), (k, s) and (k, s).
+
+    With M the pseudo-inverse of the planes divided by their reach, |x + M offset / reach| <= sum |M|.
+    """
+    inside = np.maximum(reach, 1e-12)
+    planes = normal / inside[..., None]
+    size = np.linalg.svd(planes, compute_uv=False)
+    bounded = (reach.max(axis=1) < LIMIT) & (size.shape[1] == 3) & (size[:, -1] > 1e-9 * size[:, 0])
+    inverse = np.linalg.pinv(np.where(bounded[:, None, None], planes, 0.0))
+    middle = -np.einsum("kis,ks->ki", inverse, offset / inside)
+    half = np.sum(np.abs(inverse), axis=2) * (1 + 1e-5) + 1e-6
+    half = np.where(bounded[:, None], half, LIMIT)
+    return np.clip(middle - half, -LIMIT, LIMIT), np.clip(middle + half, -LIMIT, LIMIT)
 
 
 def _strip_rows(scene: Scene, terms: Terms, frame: Frame) -> NDArray[np.void]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hqmodel.field import Terms, region
+from hqmodel.field import Terms, region, value
 from hqmodel.gpu.layout import TERM, WIDTH
-from hqmodel.gpu.packing import LIMIT, Frame, Packed, linear, pack, tint
+from hqmodel.gpu.packing import LIMIT, NEGLIGIBLE, Frame, Packed, linear, pack, tint
 from hqmodel.model import Group, Scene, Shape, Strip, Transform
 
 from ..cases import NAMES, case
@@ -69,6 +69,24 @@ def test_mirror_images_share_their_strips_tints() -> None:
     packed, _ = _packed(scene)
     assert len(packed.terms) == 2
     np.testing.assert_array_equal(packed.strips["tint"][:3], packed.strips["tint"][3:])
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_terms_matter_only_within_their_reach_and_box(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    scene = random_scene(rng, 5)
+    packed, frame = _packed(scene)
+    terms, where = Terms.of(scene), region(scene)
+    points = rng.uniform(where.low - 0.2 * where.size, where.high + 0.2 * where.size, size=(4000, 3))
+    local = frame.local(points)
+    starts = np.flatnonzero(np.diff(terms.term_of_strip, prepend=-1))
+    within = np.abs(local @ packed.strips["normal"].T + packed.strips["offset"]) <= packed.strips["reach"] * (1 + 1e-6)
+    in_reach = np.logical_and.reduceat(within, starts, axis=1)
+    in_box = np.all((local[:, None] >= packed.terms["low"]) & (local[:, None] <= packed.terms["high"]), axis=2)
+    share = np.array([value(terms.keep(np.arange(len(terms)) == k), points) for k in range(len(terms))]).T + terms.level
+    outside = np.where(in_reach & in_box, 0.0, np.abs(share))
+    assert np.max(np.sum(outside, axis=1)) <= NEGLIGIBLE * terms.level
+    assert not np.any(in_reach & ~in_box)
 
 
 def test_huge_numbers_are_packed_finite_and_keep_their_plane() -> None:
