@@ -36,7 +36,7 @@ test: system-test $(VENV)/.installed-for-tests
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
-	xvfb-run -a -s "-screen 0 1920x1200x24" $(BIN)/python -m pytest -n 2
+	$(BIN)/python -m pytest -n 2
 
 bench: system-run $(VENV)/.installed-for-tests
 	$(BIN)/python -m benchmarks.export

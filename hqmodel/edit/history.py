@@ -119,7 +119,9 @@ class History:
         return self.present
 
     def _step(self, label: str, before: Scene, after: Scene) -> None:
+        if after is before or after == before:  # no step, and not another scene that only looks the same
+            self.present = before
+            return
         self.present = after
-        if after is not before and after != before:
-            self._done.append((label, before))
-            self._undone.clear()
+        self._done.append((label, before))
+        self._undone.clear()

@@ -40,7 +40,7 @@ def test_a_moved_shape_has_the_index_it_was_sent_to(index: int, to: int, expecte
 
 def test_there_is_room_for_256_shapes_and_no_more() -> None:
     full = Scene(shapes=(new_shape("ball"),) * MAX_SHAPES)
-    with pytest.raises(EditError, match=r"^shapes: expected a list of at most 256, got 257$"):
+    with pytest.raises(EditError, match=r"^shapes: expected a list of at most 256, got a list of 257$"):
         add_shape(full, new_shape("ball"))
 
 
