@@ -110,7 +110,7 @@ def _piece(scene: Scene, terms: Terms, grid: Grid, tile: Blocks, shading: bool) 
     blocks = blocks_of(local, grid, tile)
     if not len(blocks):
         return None
-    patch = extract(blocks, _samples(local, grid, blocks), 1.0 / _step(local, grid))
+    patch = extract(blocks, lambda some: _samples(local, grid, some), 1.0 / _step(local, grid))
     keys, first, inverse = np.unique(_keys(patch.edge, grid), return_index=True, return_inverse=True)
     faces = inverse.reshape(-1).astype(np.int32)[patch.faces]
     faces = faces[np.all(faces != np.roll(faces, 1, axis=1), axis=1)]  # edges without length close up at the ends of cuts
@@ -150,7 +150,7 @@ def _step(terms: Terms, grid: Grid) -> float:
 
 
 def _samples(terms: Terms, grid: Grid, blocks: Blocks) -> Array:
-    """The near-linear field at the nodes of blocks, (n, 9, 9, 9); -inf beyond a cut."""
+    """The near-linear field at the nodes of blocks, (n, 5, 5, 5); -inf beyond a cut."""
     steps = np.arange(NODES)
     index = [blocks[:, i, None] + steps for i in range(3)]
     x, y, z = (nodes[i] for nodes, i in zip(grid.nodes, index, strict=True))

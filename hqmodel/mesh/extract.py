@@ -6,6 +6,7 @@ for hundreds. Vertices are told apart by the edge they lie on, never by rounding
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,7 +20,7 @@ from .mesh import Array, Triangles
 NODES = BLOCK + 1
 INSIDE, AT_NODE = 3, 4
 # Blocks in one call; float32 coordinates of the packed array stay finer than a thousandth of a cell.
-_PACK = 360
+_PACK = 560
 # The interpolated position along an edge only names the edge. Samples are kept this far off the level and below the largest
 # by this much, so that no position comes near a node.
 _LEAST, _MOST = 0.05, 12.0
@@ -41,10 +42,13 @@ class Patch:
     faces: Triangles
 
 
-def extract(blocks: Blocks, samples: Array, steepness: float) -> Patch:
-    """The level set 0 of samples (n, 9, 9, 9), positive inside, taken at blocks (n, 3); `steepness` brings a cell's
-    difference in them to about 1."""
-    patches = [_packed(blocks[i : i + _PACK], samples[i : i + _PACK], steepness) for i in range(0, len(blocks), _PACK)]
+def extract(blocks: Blocks, sample: Callable[[Blocks], Array], steepness: float) -> Patch:
+    """The level set 0 of a field, positive inside, in blocks (n, 3).
+
+    `sample` gives the field at the nodes of some of them, (m, 5, 5, 5); `steepness` brings a cell's difference in it to about 1.
+    """
+    packs = [blocks[i : i + _PACK] for i in range(0, len(blocks), _PACK)]
+    patches = [_packed(pack, sample(pack), steepness) for pack in packs]
     starts = np.cumsum([0] + [len(patch.edge) for patch in patches])
     return Patch(
         np.concatenate([patch.edge for patch in patches]),
