@@ -26,7 +26,7 @@ float gloss(vec3 normal, vec3 to_eye, vec3 to_light)
     float spread = nh * nh * (a2 - 1.0) + 1.0;
     float k = (ROUGHNESS + 1.0) * (ROUGHNESS + 1.0) / 8.0;
     float shade = 1.0 / ((nl * (1.0 - k) + k) * (nv * (1.0 - k) + k));
-    float fresnel = 0.04 + 0.96 * pow(1.0 - max(dot(middle, to_eye), 0.0), 5.0);
+    float fresnel = 0.04 + 0.96 * pow(1.0 - clamp(dot(middle, to_eye), 0.0, 1.0), 5.0);
     return a2 / (PI * spread * spread) * shade * fresnel * nl * 0.25;
 }
 
@@ -36,7 +36,7 @@ vec3 clay(vec3 color, vec3 normal, vec3 to_eye, vec3 fill, vec3 rim, float key, 
     float lit = max(dot(normal, key_direction), 0.0) * key;
     vec3 light = KEY_SHARE * KEY_COLOR * lit + SKY_SHARE * around;
     light += vec3(0.17, 0.19, 0.23) * max(dot(normal, fill), 0.0);
-    float edge = pow(1.0 - max(dot(normal, to_eye), 0.0), 3.0);
+    float edge = pow(1.0 - clamp(dot(normal, to_eye), 0.0, 1.0), 3.0);
     vec3 back = vec3(0.55, 0.60, 0.68) * edge * smoothstep(-0.1, 0.8, dot(normal, rim));
     return color * (light + back * 0.6) + KEY_COLOR * key * gloss(normal, to_eye, key_direction) + back * 0.10;
 }

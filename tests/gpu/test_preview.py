@@ -156,3 +156,15 @@ def test_objects_are_given_back(ctx: moderngl.Context) -> None:
 
 def _red() -> Scene:
     return Scene(shapes=(ball().shapes[0].changed(color=(1.0, 0.05, 0.05)),))
+
+
+@pytest.mark.parametrize("size", [(673, 706), (401, 301), (90, 70)])
+def test_the_middle_of_a_ball_is_lit_like_what_is_around_it(preview: Preview, size: tuple[int, int]) -> None:
+    """Where the surface faces the eye squarely a cosine may round to more than 1."""
+    scene = case("sphere").scene
+    preview.show(scene)
+    where = region(scene)
+    preview.draw(Camera().framing(where.low, where.high, size[0] / size[1]), size, "clay", quick=True)
+    x, y = size[0] // 2, size[1] // 2
+    around = preview.pixels()[y - 8 : y + 8, x - 8 : x + 8, :3].reshape(-1, 3).astype(int)
+    assert np.max(np.ptp(around, axis=0)) < 45
