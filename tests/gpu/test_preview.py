@@ -158,7 +158,7 @@ def _red() -> Scene:
     return Scene(shapes=(ball().shapes[0].changed(color=(1.0, 0.05, 0.05)),))
 
 
-@pytest.mark.parametrize("size", [(673, 706), (401, 301), (90, 70)])
+@pytest.mark.parametrize("size", [(673, 706), (401, 301)])
 def test_the_middle_of_a_ball_is_lit_like_what_is_around_it(preview: Preview, size: tuple[int, int]) -> None:
     """Where the surface faces the eye squarely a cosine may round to more than 1."""
     scene = case("sphere").scene
