@@ -1,7 +1,10 @@
-"""How the suite runs: no deadline on single examples, as machines differ, and settings kept out of the user's home."""
+"""How the suite runs: no deadline on examples, settings kept out of the home, and a display of its own for the window tests."""
 
 from __future__ import annotations
 
+import os
+import shutil
+import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -18,3 +21,20 @@ def _own_settings(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.
     folder: Path = tmp_path_factory.mktemp("config")
     monkeypatch.setenv("XDG_CONFIG_HOME", str(folder))
     yield
+
+
+@pytest.fixture(scope="session")
+def display() -> Iterator[str]:
+    """The name of a display to open windows on; each of the suite's processes has one to itself."""
+    if shutil.which("Xvfb") is None:
+        pytest.fail("the window tests need a display: install Xvfb (on Debian and Ubuntu: xvfb)")
+    read, write = os.pipe()
+    command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x800x24", "-nolisten", "tcp"]
+    with subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL) as server:
+        os.close(write)
+        with os.fdopen(read) as stream:
+            number = stream.readline().strip()
+        if not number:
+            pytest.fail("Xvfb ended without opening a display: run it by hand to see why")
+        yield f":{number}"
+        server.terminate()
