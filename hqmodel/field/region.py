@@ -68,16 +68,16 @@ def region(scene: Scene, terms: Terms | None = None) -> Region:
     return Region(hull[0], hull[1], cut=flat or not bounded or scene.bounds is not None, bounded=bounded)
 
 
-def reaches(terms: Terms) -> Array:
-    """(S,) the largest |h_a| where the body can be, by the widened planes of its term alone; inf for hyperbolic terms.
+def reaches(terms: Terms, margin: float) -> Array:
+    """(S,) the largest |h_a| where the strip's term alone comes to exp(-margin) of the level.
 
-    Where F >= w some adding term k has H_k <= C_k + ln(K c_k / w) / beta_k; negative where the term never suffices.
+    That is where H_k <= C_k + (ln(c_k / w) + margin) / beta_k.
+    Negative where it never does; inf for hyperbolic terms, and where there is no level above 0 to measure by.
     """
-    adding = max(1, int(np.count_nonzero(terms.positive)))
-    if terms.level <= 0:
+    if terms.level <= 0 or not len(terms):
         return np.full(len(terms.inner), np.inf)
     with np.errstate(over="ignore", invalid="ignore"):
-        slack = (np.log(adding) + terms.log_coefficient - np.log(terms.level)) / np.maximum(terms.hardness, 1e-300)
+        slack = (terms.log_coefficient - np.log(terms.level) + margin) / np.maximum(terms.hardness, 1e-300)
         most = np.clip(terms.constant + slack, -CEILING, CEILING)[terms.term_of_group]
         reach = np.sign(most) * np.minimum(np.abs(most) ** (1 / terms.outer), HUGE)
     hyperbolic = np.minimum.reduceat(terms.group_sign, terms.term_start)[terms.term_of_group] < 0
@@ -87,7 +87,8 @@ def reaches(terms: Terms) -> Array:
 def _start(terms: Terms, flat: bool) -> tuple[Array, bool]:
     """A box that holds the body for certain, (2, 3), or one so large that what touches it has no end."""
     boxes = []
-    reach = reaches(terms) if len(terms) else np.empty(0)
+    # where F >= w, one of K adding terms alone comes to w / K
+    reach = reaches(terms, np.log(max(1, int(np.count_nonzero(terms.positive)))))
     for k in np.flatnonzero(terms.positive):
         own = terms.term_of_strip == k
         if np.any(reach[own] < 0):

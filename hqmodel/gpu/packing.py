@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hqmodel.field import Region, Terms
+from hqmodel.field import Region, Terms, reaches, srgb_to_linear
 from hqmodel.model import Scene
 
 from .layout import STRIP, TERM, WIDTH
@@ -88,12 +88,6 @@ def pack(scene: Scene, terms: Terms, frame: Frame) -> Packed:
     return Packed(_term_rows(scene, terms, first_strip, strips), strips, uniforms, tuple(defines))
 
 
-def linear(srgb: ArrayLike) -> Array:
-    """sRGB colours, 0 to 1, as linear light."""
-    c = np.asarray(srgb, dtype=float)
-    return np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
-
-
 def tint(number: int) -> tuple[float, float, float]:
     """The colour, sRGB, that a strip has in the strips mode: neighbours in number differ widely in hue."""
     return hsv_to_rgb((0.06 + number * _GOLDEN) % 1.0, 0.62, 0.92)
@@ -114,7 +108,7 @@ def _term_rows(scene: Scene, terms: Terms, first_strip: NDArray[np.intp], strips
     rows["adds"] = np.sign(terms.coefficient)
     if len(terms):
         rows["hyperbolic"] = np.minimum.reduceat(terms.group_sign, terms.term_start) < 0
-    rows["color"] = linear([scene.shapes[shape].color for shape in terms.term_source]).reshape(-1, 3)
+    rows["color"] = srgb_to_linear(np.array([scene.shapes[shape].color for shape in terms.term_source])).reshape(-1, 3)
     rows["low"], rows["high"] = -LIMIT, LIMIT
     for count in np.unique(rows["count"]):
         chosen = np.flatnonzero(rows["count"] == count)
@@ -152,7 +146,7 @@ def _strip_rows(scene: Scene, terms: Terms, frame: Frame) -> NDArray[np.void]:
     rows["members"][terms.group_start] = np.diff(terms.group_start, append=len(terms.inner))
     before = np.cumsum([0, *(len(shape.strips) for shape in scene.shapes)])
     shape, index = terms.strip_source.T
-    rows["tint"] = linear([tint(int(number)) for number in before[shape] + index]).reshape(-1, 3)
+    rows["tint"] = srgb_to_linear(np.array([tint(int(number)) for number in before[shape] + index])).reshape(-1, 3)
     rows["reach"] = _reaches(terms)
     return rows
 
@@ -162,12 +156,6 @@ def _reaches(terms: Terms) -> Array:
 
     For a lone shape the largest |h| on its surface. Limitless for hyperbolic terms, and where there is no level to measure by.
     """
-    if terms.level <= 0:
-        return np.full(len(terms.inner), LIMIT)
     margin = 0.0 if _is_lone(terms) else np.log(max(len(terms), 1) / NEGLIGIBLE)
-    with np.errstate(over="ignore"):
-        slack = (terms.log_coefficient - np.log(terms.level) + margin) / np.maximum(terms.hardness, 1e-300)
-        most = (terms.constant + slack)[terms.term_of_group]
-        reach = np.where(most > 0, np.maximum(most, 1e-300) ** (1 / terms.outer) * (1 + 1e-6), -1.0)
-    endless = np.minimum.reduceat(terms.group_sign, terms.term_start)[terms.term_of_group] < 0 if len(terms) else reach < 0
-    return np.where(endless, LIMIT, np.minimum(reach, LIMIT))[terms.group_of_strip]
+    reach = reaches(terms, margin)
+    return np.where(reach > 0, np.minimum(reach * (1 + 1e-6), LIMIT), -1.0)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hqmodel.field import Terms, region, value
+from hqmodel.field import Terms, region, srgb_to_linear, value
 from hqmodel.gpu.layout import TERM, WIDTH
-from hqmodel.gpu.packing import LIMIT, NEGLIGIBLE, Frame, Packed, linear, pack, tint
+from hqmodel.gpu.packing import LIMIT, NEGLIGIBLE, Frame, Packed, pack, tint
 from hqmodel.model import Group, Scene, Shape, Strip, Transform
 
 from ..cases import NAMES, case
@@ -106,7 +106,7 @@ def test_an_empty_scene_packs() -> None:
 
 
 def test_colours_are_linear_and_tints_differ() -> None:
-    np.testing.assert_allclose(linear([0.0, 0.5, 1.0]), [0.0, 0.214041, 1.0], atol=1e-6)
+    np.testing.assert_allclose(srgb_to_linear(np.array([0.0, 0.5, 1.0])), [0.0, 0.214041, 1.0], atol=1e-6)
     tints = np.array([tint(number) for number in range(8)])
     apart = np.linalg.norm(tints[:, None] - tints[None], axis=2) + np.eye(8)
     assert np.min(apart) > 0.1
