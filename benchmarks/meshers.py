@@ -129,8 +129,9 @@ def main() -> None:
         return
     console = Console(width=None if sys.stdout.isatty() else 160)
     console.print(machine(), ABSENT, sep="\n")
-    rows = large(console, options.repeat) if options.large else []
-    if not options.large:
+    if options.large:
+        rows = large(console, options.repeat)
+    else:
         rows = [row for cells in options.cells for row in compare(console, cells, options.repeat)]
     if options.json:
         options.json.write_text(json.dumps(rows, indent=1) + "\n")

@@ -1,6 +1,6 @@
 """The field on dense grids, as well as that way allows: what the other meshers are handed.
 
-float32, in slabs that fit the cache, on all cores, near-linear across the surface, whole exponents by multiplication. Powers
+float32, in tiles that fit the cache, on all cores, near-linear across the surface, whole exponents by multiplication. Powers
 are kept clear of float32's ends, where underflow would make them many times slower.
 """
 
@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import os
 from concurrent.futures import ThreadPoolExecutor
+from itertools import product
+from math import isqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +20,8 @@ Floats = NDArray[np.float32]
 
 # The box that every mesher covers, whatever the body.
 LOW, HIGH = -1.5, 1.5
-_SLAB = 1 << 18
+# Nodes worked on at once: what stays in a core's own cache.
+_TILE = 1 << 16
 _LEAST, _MOST = 1.2e-38, 1e37
 # exp of minus this is still a normal float32.
 _FAINT = 80.0
@@ -33,13 +36,14 @@ def volume(terms: Terms, cells: int) -> Floats:
     """The near-linear field at all nodes of the box, (cells + 1,) * 3: positive inside."""
     nodes = axis(cells)
     values = np.empty([len(nodes)] * 3, dtype=np.float32)
-    rows = max(1, _SLAB // len(nodes) ** 2)
+    side = isqrt(_TILE // len(nodes))
+    cuts = [slice(start, start + side) for start in range(0, len(nodes), side)]
 
-    def fill(start: int) -> None:
-        values[start : start + rows] = near_linear(terms, nodes[start : start + rows], nodes, nodes)
+    def fill(rows: slice, columns: slice) -> None:
+        values[rows, columns] = near_linear(terms, nodes[rows], nodes[columns], nodes)
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        list(pool.map(fill, range(0, len(nodes), rows)))
+        list(pool.map(lambda tile: fill(*tile), product(cuts, cuts)))
     return values
 
 
@@ -62,21 +66,19 @@ def _h_sum(terms: Terms, k: int, x: Floats, y: Floats, z: Floats) -> Floats:
     for a in np.flatnonzero(terms.term_of_strip == k):
         gamma, (nx, ny, nz) = float(terms.inner[a]), terms.normal[a].astype(np.float32)
         h = (nx * x + np.float32(terms.offset[a]))[:, None, None] + (ny * y)[:, None] + nz * z
-        least, most = max(_LEAST ** (1 / gamma), _LEAST), min(_MOST ** min(1 / gamma, 1.0), _MOST)
+        least, most = (end ** min(1 / gamma, 1.0) for end in (_LEAST, _MOST))
         total += _power(np.clip(np.abs(h, out=h), least, most, out=h), gamma)
     return total
 
 
 def _power(base: Floats, exponent: float) -> Floats:
-    """base ** exponent; many times quicker than NumPy's power wherever that has no vector instructions for it."""
+    """base ** exponent, of which base is overwritten; far quicker than NumPy's power where that has no vector instructions."""
     if exponent % 1 or exponent < 1:
-        logs = np.log(base)
-        return np.exp(np.multiply(logs, np.float32(exponent), out=logs), out=logs)
-    left, square, result = int(exponent), base, None
-    while left:
+        np.multiply(np.log(base, out=base), np.float32(exponent), out=base)
+        return np.exp(base, out=base)
+    left, result = int(exponent), None
+    while left > 1:
         if left & 1:
-            result = square if result is None else result * square
-        left >>= 1
-        square = square * square if left else square
-    assert result is not None
-    return result
+            result = base.copy() if result is None else np.multiply(result, base, out=result)
+        base, left = np.multiply(base, base, out=base), left >> 1
+    return base if result is None else np.multiply(result, base, out=result)
