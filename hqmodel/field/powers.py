@@ -21,7 +21,7 @@ def strip_functions(terms: Terms, points: Array) -> Array:
     Worked out element by element: a point's value must not depend, to the last bit, on its neighbours in the array, as it
     would with a library's matrix product.
     """
-    x, y, z = np.clip(points, -HUGE, HUGE).T
+    x, y, z = np.clip(points.T, -HUGE, HUGE, out=np.empty(points.T.shape))
     h: Array = terms.normal[:, 0, None] * x
     part = terms.normal[:, 1, None] * y
     h += part

@@ -52,7 +52,7 @@ class Grid:
 
     def points(self, node: NDArray[np.int64]) -> Array:
         """World positions (n, 3) of nodes numbered (n, 3), those past the end at it."""
-        return np.stack([nodes[np.minimum(node[:, i], len(nodes) - 1)] for i, nodes in enumerate(self.nodes)], axis=1)
+        return np.stack([nodes[np.minimum(node[:, i], len(nodes) - 1)] for i, nodes in enumerate(self.nodes)]).T
 
     def touches_outside(self, blocks: NDArray[np.int64], size: int) -> NDArray[np.bool_]:
         """Whether cubes of cells hold nodes beyond a cut, (n,)."""

@@ -15,21 +15,24 @@ from numpy.typing import NDArray
 from .mesh import Array, Mesh, Triangles
 
 _ROUNDS = 8
-_VERTICES_AT_ONCE = 40_000
 # How far the new vertex moves from the edge into its sheet.
 _ASIDE = 0.1
 
 
-def parted(mesh: Mesh) -> Mesh:
-    """The mesh with at most two faces to every edge; itself where that holds already."""
-    twice = _directed_twice(mesh.faces, len(mesh.vertices))
+def parted(mesh: Mesh, suspects: NDArray[np.bool_]) -> Mesh:
+    """The mesh with at most two faces to every edge; itself where that holds already.
+
+    `suspects` (V,) tells the vertices between which other edges may be.
+    """
+    twice = _directed_twice(mesh.faces, suspects)
     if twice:
         mesh = replace(mesh, faces=_without_folds(mesh.faces, np.unique(twice)))
     for _ in range(_ROUNDS):
-        twice = _directed_twice(mesh.faces, len(mesh.vertices))
+        twice = _directed_twice(mesh.faces, suspects)
         if not twice:
             break
         mesh = _parted_once(mesh, twice)
+        suspects = np.append(suspects, np.ones(len(mesh.vertices) - len(suspects), dtype=bool))
     return mesh
 
 
@@ -65,21 +68,14 @@ def _parted_once(mesh: Mesh, edges: list[tuple[int, int]]) -> Mesh:
     )
 
 
-def _directed_twice(faces: Triangles, count: int) -> list[tuple[int, int]]:
-    """Edges (a, b), a < b, along which more than one face runs in the same direction."""
-    found: set[tuple[int, int]] = set()
-    step = max(_VERTICES_AT_ONCE, count // 4)
-    for start in range(0, count, step):
-        parts = []
-        for i in range(3):
-            column, following = faces[:, i], faces[:, (i + 1) % 3]
-            here = (column >= start) & (column < start + step)
-            parts.append(column[here].astype(np.int64) * count + following[here])
-        keys = np.concatenate(parts)
-        keys.sort()
-        again = keys[1:][keys[1:] == keys[:-1]]
-        found |= {(int(min(k // count, k % count)), int(max(k // count, k % count))) for k in again}
-    return sorted(found)
+def _directed_twice(faces: Triangles, suspects: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """Edges (a, b), a < b, between suspects (V,) along which more than one face runs in the same direction."""
+    near = faces[np.count_nonzero(suspects[faces], axis=1) >= 2].astype(np.int64)
+    start, end = near.ravel(), np.roll(near, -1, axis=1).ravel()
+    both = suspects[start] & suspects[end]
+    keys, times = np.unique(start[both] * len(suspects) + end[both], return_counts=True)
+    pairs = (divmod(int(key), len(suspects)) for key in keys[times > 1])
+    return sorted({(min(pair), max(pair)) for pair in pairs})
 
 
 def _sheets(mesh: Mesh, a: int, b: int) -> list[tuple[int, int]]:

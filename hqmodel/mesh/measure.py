@@ -5,26 +5,35 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from hqmodel.field import Terms, log_ratio, near_linear
+from hqmodel.field import Terms, log_ratio, near_linear_single
 
-from .mesh import Array, Mesh, Triangles
+from .mesh import Array, Mesh, Triangles, crosses, lengths
 from .refine import to_surface
 
 
-def largest_distance(terms: Terms, vertices: Array, faces: Triangles, slopes: Array, stride: float) -> float:
+def depths(terms: Terms, vertices: Array, faces: Triangles, slopes: Array) -> NDArray[np.float32]:
+    """How far each face's middle lies below the surface, (F,), to first order; negative above it.
+
+    `slopes` (V,) is how fast the near-linear field changes at each vertex.
+    """
+    corners = [faces[:, i] for i in range(3)]
+    middles = np.stack([(x[corners[0]] + x[corners[1]] + x[corners[2]]) / 3 for x in vertices.T]).T
+    slope = (slopes[corners[0]] + slopes[corners[1]] + slopes[corners[2]]) / 3
+    return (near_linear_single(terms, log_ratio(terms, middles)) / np.maximum(slope, 1e-30)).astype(np.float32)
+
+
+def largest_distance(terms: Terms, vertices: Array, faces: Triangles, off: NDArray[np.float32], stride: float) -> float:
     """The largest distance of a face's middle from the surface, measured along the gradient by Newton steps.
 
-    `slopes` (V,) is how fast the near-linear field changes at each vertex. With it all faces are judged to first order; those
-    that look worst, some hundredth of them, are followed to the surface.
+    Those faces are followed to the surface that look worst by `off`, (F,): some thousandth of them.
     """
     if not len(faces):
         return 0.0
-    middles = vertices[faces].mean(axis=1)
-    estimate = np.abs(near_linear(terms, log_ratio(terms, middles))) / np.maximum(slopes[faces].min(axis=1), 1e-300)
-    count = min(len(middles), 100 + len(middles) // 100)
-    worst = middles[np.argpartition(estimate, -count)[-count:]]
-    return float(np.max(np.linalg.norm(to_surface(terms, worst, stride, rounds=5)[0] - worst, axis=1)))
+    count = min(len(faces), 200 + len(faces) // 1000)
+    worst = vertices[faces[np.argpartition(np.abs(off), -count)[-count:]]].mean(axis=1)
+    return float(np.max(lengths(to_surface(terms, worst, stride, rounds=6)[0] - worst)))
 
 
 def report(mesh: Mesh) -> dict[str, Any]:
@@ -33,9 +42,9 @@ def report(mesh: Mesh) -> dict[str, Any]:
     origin = mesh.vertices.mean(axis=0)
     a, b, c = (corners[:, i] - origin for i in range(3))
     with np.errstate(over="ignore", invalid="ignore"):
-        across = np.cross(b - a, c - a)
+        across = crosses(b - a, c - a)
         volume = float(np.einsum("ij,ij->", a, across) / 6)
-        area = float(np.linalg.norm(across, axis=1).sum() / 2)
+        area = float(lengths(across).sum() / 2)
     watertight, edges = _closed(mesh)
     return {
         "vertices": len(mesh.vertices),

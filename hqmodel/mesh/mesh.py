@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +29,28 @@ class Mesh:
     normals: NDArray[np.float32] | None = None
     colors: NDArray[np.uint8] | None = None
     surface_error: float | None = None
+
+
+def dots(a: NDArray[Any], b: NDArray[Any]) -> NDArray[Any]:
+    """Scalar products (n,) of a and b, (n, 3) each; of no row does the last bit depend on its neighbours, as in np.einsum."""
+    (ax, ay, az), (bx, by, bz) = a.T, b.T
+    return ax * bx + ay * by + az * bz
+
+
+def lengths(vectors: Array) -> Array:
+    """Euclidean lengths (n,) of vectors (n, 3)."""
+    return np.sqrt(dots(vectors, vectors))
+
+
+def unit(vectors: Array) -> Array:
+    """Vectors (n, 3) divided by their lengths."""
+    return vectors / np.maximum(lengths(vectors), 1e-200)[:, None]
+
+
+def crosses(a: Array, b: Array) -> Array:
+    """Vector products (n, 3) of a and b, (n, 3) each."""
+    (ax, ay, az), (bx, by, bz) = a.T, b.T
+    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]).T
 
 
 def reflected(mesh: Mesh, axis: int) -> Mesh:

@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from hqmodel.field import Terms, log_ratio, near_linear, near_linear_gradient
 
-from .extract import INSIDE, Patch
+from .extract import INSIDE, Samples
 from .grid import Grid
-from .mesh import Array
+from .mesh import Array, lengths
 
 # A vertex nearer to a node than this share of the edge is moved off it and back onto the surface sideways, so that the
 # vertices around a node that lies almost on the surface stay apart.
@@ -20,33 +20,35 @@ _APART = 1e-3
 _PRECISE = 1e-8
 
 
-def place_vertices(terms: Terms, grid: Grid, patch: Patch) -> Array:
-    """World positions (V, 3) of a patch's vertices, on the surface; exactly in the planes of the grid that their edges lie in
-    at a mirror plane or a cut."""
-    node, axis = patch.edge[:, :3], patch.edge[:, 3]
-    start = grid.points(node)
-    along = node.copy()
+def place_vertices(
+    terms: Terms, grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64], place: Samples, ends: Samples
+) -> Array:
+    """World positions (V, 3), on the surface, of the vertices on the grid's edges from `node` (V, 3) along `axis` (V,).
+
+    `place` and `ends` are a patch's. Exactly in the planes of the grid that their edges lie in at a mirror plane or a cut.
+    """
+    points = grid.points(node)
     free = np.flatnonzero(axis < INSIDE)
-    along[free, axis[free]] += 1
-    end = grid.points(along)
-    points = start.copy()
-    share = _roots(terms, start[free], end[free], patch.ends[free])
-    points[free] = start[free] + (end[free] - start[free]) * share[:, None]
-    near = (share < _CROWDED) | (share > 1 - _CROWDED)
-    crowded = free[near]
-    if crowded.size:
-        fixed = _held(grid, patch.edge[crowded])
-        way = end[crowded] - start[crowded]
-        aside, beside = (start[crowded] + way * np.clip(share[near], d, 1 - d)[:, None] for d in (_CROWDED, _APART))
-        points[crowded] = _projected(terms, aside, beside, fixed, grid.cell)
+    start, end = points[free], points[free].copy()
+    for i, nodes in enumerate(grid.nodes):
+        along = axis[free] == i
+        end[along, i] = nodes[node[free[along], i] + 1]
+    share = _roots(terms, start, end, ends[free])
+    points[free] = start + (end - start) * share[:, None]
+    near = np.flatnonzero((share < _CROWDED) | (share > 1 - _CROWDED))
+    if near.size:
+        way, share = end[near] - start[near], share[near, None]
+        aside, beside = (start[near] + way * np.clip(share, d, 1 - d) for d in (_CROWDED, _APART))
+        points[free[near]] = _projected(terms, aside, beside, _held(grid, node[free[near]], axis[free[near]]), grid.cell)
     centre = np.flatnonzero(axis == INSIDE)
     if centre.size:
-        across = grid.points(node[centre] + 1) - start[centre]
-        inner = start[centre] + across * patch.place[centre]
-        on_cap = np.broadcast_to(np.any(across == 0, axis=1, keepdims=True), across.shape)
-        points[centre] = _projected(terms, inner, inner, on_cap, grid.cell)
-        strayed = centre[~on_cap[:, 0] & np.all(points[centre] == inner, axis=1)]
-        points[strayed] = _nearest_root(terms, points[strayed], start[strayed], grid.points(node[strayed] + 1))
+        low, high = points[centre], grid.points(node[centre] + 1)
+        inner = low + (high - low) * place[centre]
+        on_cap = np.broadcast_to(np.any(high == low, axis=1, keepdims=True), low.shape)
+        moved = _projected(terms, inner, inner, on_cap, grid.cell)
+        strayed = ~on_cap[:, 0] & np.all(moved == inner, axis=1)
+        moved[strayed] = _nearest_root(terms, moved[strayed], low[strayed], high[strayed])
+        points[centre] = moved
     return points
 
 
@@ -68,21 +70,23 @@ def _nearest_root(terms: Terms, points: Array, low: Array, high: Array) -> Array
     return points + (other - points) * share[:, None]
 
 
-def _held(grid: Grid, edge: NDArray[np.int64]) -> NDArray[np.bool_]:
+def _held(grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64]) -> NDArray[np.bool_]:
     """Coordinates (n, 3) that must not change: those in a mirror plane or a cut, across the edge."""
-    held = np.zeros((len(edge), 3), dtype=bool)
+    held = np.zeros(node.shape, dtype=bool)
     for i, (nodes, outside) in enumerate(zip(grid.nodes, grid.outside, strict=True)):
-        beside = outside[np.maximum(edge[:, i] - 1, 0)] | outside[np.minimum(edge[:, i] + 1, len(outside) - 1)]
-        held[:, i] = (edge[:, 3] != i) & (beside | (nodes[edge[:, i]] == 0))
+        at = node[:, i]
+        beside = outside[np.maximum(at - 1, 0)] | outside[np.minimum(at + 1, len(outside) - 1)]
+        held[:, i] = (axis != i) & (beside | (nodes[at] == 0))
     return held
 
 
-def _roots(terms: Terms, start: Array, end: Array, ends: Array) -> Array:
+def _roots(terms: Terms, start: Array, end: Array, ends: Array | Samples) -> Array:
     """Shares (n,) along edges at which the field is 0, by Chandrupatla's method (1997, Adv. Eng. Software 28).
 
     `ends` (n, 2) are near-linear samples of opposite sign. The bracket of each root shrinks below `_PRECISE` of its edge, by
     inverse quadratic interpolation where that is safe and by halves elsewhere.
     """
+    ends = ends.astype(float)
     share = np.where(ends[:, 0] == 0, 0.0, 1.0)
     active = np.flatnonzero((ends[:, 0] != 0) & (ends[:, 1] != 0))
     a, b, c = np.ones(active.size), np.zeros(active.size), np.ones(active.size)
@@ -121,7 +125,7 @@ def _projected(terms: Terms, points: Array, otherwise: Array, fixed: NDArray[np.
     A point that does not arrive, or would go further than a tenth of a cell, becomes `otherwise`.
     """
     moved, last = to_surface(terms, points, 0.05 * cell, 4, fixed)
-    arrived = (last < 1e-6 * cell) & (np.linalg.norm(moved - points, axis=1) < 0.1 * cell)
+    arrived = (last < 1e-6 * cell) & (lengths(moved - points) < 0.1 * cell)
     return np.where(arrived[:, None], moved, otherwise)
 
 
@@ -137,7 +141,7 @@ def to_surface(
         linear, slope = near_linear_gradient(terms, moved)
         if fixed is not None:
             slope = np.where(fixed, 0.0, slope)
-        size = np.maximum(np.linalg.norm(slope, axis=1), 1e-200)
+        size = np.maximum(lengths(slope), 1e-200)
         distance = np.clip(linear / size, -stride, stride)
         moved = moved - (distance / size)[:, None] * slope
     return moved, np.abs(distance)

@@ -8,75 +8,72 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .mesh import Array, Mesh, Triangles
+from .mesh import Array, Triangles
 
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """One tile's triangles. `keys` (V,) name the edges of the vertices; `shared` tells those that other tiles may have too."""
+    """One tile's triangles. `keys` (n,) name the edges of the vertices `shared` (n,), which other tiles may have too.
+
+    `off` (F,) is how far each face's middle lies below the surface; `pull` (V, 2) the sum and the number of those of the
+    smooth faces about each vertex. `pinched` (V,) tells vertices where two sheets may touch.
+    """
 
     keys: NDArray[np.int64]
-    shared: NDArray[np.bool_]
+    shared: NDArray[np.intp]
     vertices: Array
+    normals: NDArray[np.float32]
+    colors: NDArray[np.uint8]
+    pull: NDArray[np.float32]
+    pinched: NDArray[np.bool_]
     faces: Triangles
-    normals: NDArray[np.float32] | None
-    colors: NDArray[np.uint8] | None
-    error: float
+    off: NDArray[np.float32]
+
+
+_OF_VERTICES = ("vertices", "normals", "colors", "pull", "pinched")
+_OF_FACES = ("faces", "off")
+# What adds up over the pieces that share a vertex.
+_SUMS = ("pull", "pinched")
 
 
 class Weld:
-    """A mesh that grows by pieces, in memory little larger than itself."""
+    """A mesh that grows by pieces. They are kept as they come; `take` lays one of their parts out in one array."""
 
     def __init__(self) -> None:
         self._known: dict[int, int] = {}
-        self._columns = {name: _Column(dtype) for name, dtype in _TYPES.items()}
-        self._error = 0.0
+        self._vertices = 0
+        self._late: dict[str, list[tuple[Triangles, NDArray[Any]]]] = {name: [] for name in _SUMS}
+        self._parts: dict[str, list[NDArray[Any]]] = {name: [] for name in (*_OF_VERTICES, *_OF_FACES)}
 
     def __bool__(self) -> bool:
-        return len(self._columns["faces"].rows) > 0
+        return self._vertices > 0
 
     def add(self, piece: Piece) -> None:
         """Join a piece on: vertices that an earlier one has already are taken from there."""
-        count = len(self._columns["vertices"].rows)
-        new = np.ones(len(piece.keys), dtype=bool)
-        border = np.flatnonzero(piece.shared)
-        earlier = np.array([self._known.get(key, -1) for key in piece.keys[border].tolist()], dtype=np.int32)
-        new[border] = earlier < 0
-        number = (np.cumsum(new) - 1 + count).astype(np.int32)
-        number[border[earlier >= 0]] = earlier[earlier >= 0]
-        fresh = border[earlier < 0]
-        self._known.update(zip(piece.keys[fresh].tolist(), number[fresh].tolist(), strict=True))
-        self._columns["faces"].extend(number[piece.faces])
-        for name in ("vertices", "normals", "colors"):
-            rows = getattr(piece, name)
-            if rows is not None:
-                self._columns[name].extend(rows[new])
-        self._error = max(self._error, piece.error)
+        new = np.ones(len(piece.vertices), dtype=bool)
+        earlier = np.array([self._known.get(key, -1) for key in piece.keys.tolist()], dtype=np.int32)
+        old = earlier >= 0
+        new[piece.shared[old]] = False
+        number = np.cumsum(new, dtype=np.int32) + np.int32(self._vertices - 1)
+        number[piece.shared[old]] = earlier[old]
+        self._known.update(zip(piece.keys[~old].tolist(), number[piece.shared[~old]].tolist(), strict=True))
+        self._vertices += int(np.count_nonzero(new))
+        for name, late in self._late.items():
+            late.append((earlier[old], getattr(piece, name)[piece.shared[old]]))
+        for name in _OF_VERTICES:
+            self._parts[name].append(getattr(piece, name)[new])
+        self._parts["faces"].append(number[piece.faces])
+        self._parts["off"].append(piece.off)
 
-    def mesh(self) -> Mesh:
-        """What has been joined."""
-        vertices, faces, normals, colors = (self._columns[name].rows for name in _TYPES)
-        bare = len(normals) < len(vertices)
-        return Mesh(vertices, faces, None if bare else normals, None if bare else colors, self._error)
-
-
-_TYPES = {"vertices": np.float64, "faces": np.int32, "normals": np.float32, "colors": np.uint8}
-
-
-class _Column:
-    """Rows of three that grow in place."""
-
-    def __init__(self, dtype: type) -> None:
-        self._store: NDArray[Any] = np.empty((0, 3), dtype=dtype)
-        self._count = 0
-
-    @property
-    def rows(self) -> NDArray[Any]:
-        return self._store[: self._count]
-
-    def extend(self, rows: NDArray[Any]) -> None:
-        needed = self._count + len(rows)
-        if needed > len(self._store):
-            self._store.resize((max(needed, len(self._store) * 9 // 8, 1024), 3), refcheck=False)
-        self._store[self._count : needed] = rows
-        self._count = needed
+    def take(self, name: str) -> NDArray[Any]:
+        """A part of the pieces, all in one; they give it away, so that there are never two of it."""
+        parts = self._parts.pop(name)
+        whole = np.empty((sum(len(part) for part in parts), *parts[0].shape[1:]), dtype=parts[0].dtype)
+        end = len(whole)
+        while parts:
+            part = parts.pop()
+            whole[end - len(part) : end] = part
+            end -= len(part)
+        for rows, values in self._late.get(name, ()):
+            whole[rows] += values
+        return whole

@@ -56,7 +56,7 @@ def test_reference(name: str) -> None:
     tolerance = (0.02 if name == "astroid" else 0.004) + here.truth["volume_tolerance"]
     assert abs(measured["volume"] / here.truth["volume"] - 1) < tolerance
     side = float(np.max(np.ptp(mesh.vertices, axis=0)))
-    assert np.max(distance(here.scene, mesh)) < 1e-5 * side
+    assert np.max(distance(here.scene, mesh)) < 5e-5 * side
     assert mesh.normals is not None
     np.testing.assert_allclose(np.linalg.norm(mesh.normals, axis=1), 1, atol=1e-5)
 
@@ -98,20 +98,20 @@ def test_the_same_scene_gives_the_same_bytes() -> None:
 
 @pytest.mark.parametrize("name", ["composite_1", "convex_0", "truncated_tetrahedron"])
 def test_tiles_leave_no_trace(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The same triangles at any tile size, as a set."""
+    """The same triangles at any tile size, as a set, to the last bit."""
     meshes = []
     for tile in (16, 64, 512):
         monkeypatch.setattr(culling, "TILE", tile)
         monkeypatch.setattr("hqmodel.mesh.build.TILE", tile)
         meshes.append(polygonize(case(name).scene, 70))
-    corners = [np.sort(mesh.vertices[mesh.faces].round(9).reshape(-1, 9), axis=0) for mesh in meshes]
-    assert corners[0].shape == corners[1].shape == corners[2].shape
-    np.testing.assert_allclose(corners[0], corners[1], atol=2e-9)
-    np.testing.assert_allclose(corners[0], corners[2], atol=2e-9)
+    corners = [{face.tobytes() for face in mesh.vertices[mesh.faces]} for mesh in meshes]
+    assert len(corners[0]) == len(meshes[0].faces)
+    assert corners[0] == corners[1] == corners[2]
 
 
-def test_nothing_is_missed_that_a_dense_look_finds() -> None:
-    """Every change of sign between neighbouring nodes of the grid has its vertex."""
+def test_nothing_is_missed_that_a_dense_look_finds(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every change of sign between neighbouring nodes of the grid has its vertex, before creases are put back."""
+    monkeypatch.setattr("hqmodel.mesh.finish.creased", lambda *_: None)
     scene = case("composite_2").scene
     mesh = polygonize(scene, 48)
     where = region(scene)

@@ -1,0 +1,35 @@
+"""What a vertex carries besides its place: its normal, which at a cut leans towards the cap, and its colour."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hqmodel.field import Terms, mixed_colors
+from hqmodel.model import Scene
+
+from .grid import Grid
+from .mesh import Array, Triangles, unit
+
+
+def with_caps(normals: Array, vertices: Array, grid: Grid, within: NDArray[np.bool_] | None = None) -> NDArray[np.float32]:
+    """The field's unit normals (V, 3) with those of the caps: the cap's own at vertices `within` one, halfway on its rim."""
+    if grid.cuts:
+        normals = normals.copy() if within is None else np.where(within[:, None], 0.0, normals)
+        for axis, plane, side in grid.cuts:
+            normals[:, axis] += np.where(vertices[:, axis] == plane, side, 0.0)
+        normals = unit(normals)
+    return normals.astype(np.float32)
+
+
+def colored(scene: Scene, terms: Terms, vertices: Array) -> NDArray[np.uint8]:
+    """sRGB colours (V, 3), 0 to 255."""
+    return np.rint(mixed_colors(scene, terms, vertices) * 255).astype(np.uint8)
+
+
+def on_caps(faces: Triangles, vertices: Array, grid: Grid) -> NDArray[np.bool_]:
+    """Whether each face is part of a cap, (F,)."""
+    result = np.zeros(len(faces), dtype=bool)
+    for axis, plane, _ in grid.cuts:
+        result |= np.all((vertices[:, axis] == plane)[faces], axis=1)
+    return result
