@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .powers import CEILING, group_powers, over_runs, scaled, strip_functions, term_sums
+from .powers import CEILING, group_powers, over_runs, power, scaled, strip_functions, term_sums
 from .terms import HUGE, Array, Indices, Terms
 
 # Strips times points worked on at once: what stays in a processor's cache.
@@ -249,9 +249,9 @@ class _Jet:
                 inner = terms.inner[terms.group_start][:, None]
                 size = size * self.spread ** (1 / inner)
                 inside = self.spread ** (order * (1 / inner - 1))
-            power = np.minimum(size**lowered, _STEEP)
+            raised = np.minimum(power(size, terms.outer - order), _STEEP)
         regular = (self.largest > 0) | (lowered == 0)
-        return np.where(regular, terms.outer[:, None] * np.minimum(power * inside, _STEEP), 0.0)
+        return np.where(regular, terms.outer[:, None] * np.minimum(raised * inside, _STEEP), 0.0)
 
     def _share_power(self, order: int) -> Array:
         """r^(g-order), (S, P); 0 at r = 0 unless the exponent is 0."""
@@ -259,8 +259,8 @@ class _Jet:
             return self.share
         lowered = (self.terms.inner - order)[:, None]
         with np.errstate(over="ignore", divide="ignore"):
-            power = np.minimum(self.share**lowered, 1e100)
-        return np.where((self.share > 0) | (lowered == 0), power, 0.0)
+            raised = np.minimum(self.share**lowered, 1e100)
+        return np.where((self.share > 0) | (lowered == 0), raised, 0.0)
 
     def _to_terms(self, by_strip: Array) -> Array:
         """Sum of by_strip (S, P) times the normals over each term's strips, (K, 3, P)."""

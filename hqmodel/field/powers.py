@@ -34,18 +34,18 @@ def group_powers(terms: Terms, u: Array) -> Array:
     """(sum |h|^g)^(G/g) of every group, (G, P), from u = |h|, (S, P)."""
     with np.errstate(over="ignore"):
         if not terms.grouped:
-            return np.minimum(_power(u, terms.inner), CEILING)
+            return np.minimum(power(u, terms.inner), CEILING)
         largest, spread = scaled(terms, u)
         # Rooted before it is raised: m^G may underflow where s^(G/g) overflows.
         size = largest * spread ** (1 / terms.inner[terms.group_start])[:, None]
-        return np.minimum(_power(size, terms.outer), CEILING)
+        return np.minimum(power(size, terms.outer), CEILING)
 
 
 def scaled(terms: Terms, u: Array) -> tuple[Array, Array]:
     """Each group's largest |h| and sum (|h| / largest)^g, both (G, P); the sum lies between 1 and the number of strips."""
     largest = np.maximum.reduceat(u, terms.group_start, axis=0)
     share = u / np.maximum(largest, np.finfo(float).tiny)[terms.group_of_strip]
-    return largest, np.maximum(over_runs(_power(share, terms.inner), terms.group_start), 1.0)
+    return largest, np.maximum(over_runs(power(share, terms.inner), terms.group_start), 1.0)
 
 
 def term_sums(terms: Terms, v: Array, u: Array) -> Array:
@@ -70,8 +70,8 @@ def over_runs(rows: Array, starts: Indices) -> Array:
     return np.add.reduceat(rows, starts, axis=0)
 
 
-def _power(base: Array, exponents: Array) -> Array:
-    """base ** exponents[:, None] for bases of 0 and more, by multiplication where an exponent is a small whole number."""
+def power(base: Array, exponents: Array) -> Array:
+    """base ** exponents[:, None], (n, P), for bases >= 0; by multiplication where an exponent is a small whole number."""
     kinds = np.unique(exponents)
     if len(kinds) == 1:
         return _raised(base, float(kinds[0]))

@@ -14,7 +14,6 @@ from hqmodel.field import (
     Terms,
     log_ratio,
     mirror_axes,
-    near_linear_gradient,
     near_linear_single,
     region,
     relevant_terms,
@@ -22,11 +21,11 @@ from hqmodel.field import (
 from hqmodel.model import Scene
 
 from .cull import TILE, Blocks, blocks_of, tiles
-from .extract import AT_NODE, NODES, Edges, Samples, extract
+from .extract import AT_NODE, Numbers, Samples, extract
 from .finish import finished, pulls
 from .grid import Grid, make_grid
 from .measure import depths
-from .mesh import Mesh, MeshError, Triangles, lengths, unit
+from .mesh import Mesh, MeshError, lengths, unit
 from .refine import place_vertices
 from .shade import colored, on_caps, with_caps
 from .weld import Piece, Weld
@@ -105,22 +104,19 @@ def _piece(scene: Scene, terms: Terms, grid: Grid, tile: Blocks) -> Piece | None
     low, high = grid.corners(tile.reshape(1, 3), TILE)
     local = relevant_terms(terms, low[0], high[0])
     blocks = blocks_of(local, grid, tile)
-    edges = Edges(grid)
-    patch = extract(blocks, edges, lambda some: _samples(local, grid, some), 1.0 / _step(local, grid))
-    if patch is None:
+    if not len(blocks):
         return None
-    faces = _with_length(patch.faces) if grid.cuts else patch.faces
-    if not len(faces):
+    patch = extract(blocks, tile, TILE, lambda nodes: _samples(local, grid, nodes), 1.0 / _step(local, grid))
+    if patch is None or not len(patch.faces):
         return None
-    node, axis = edges.parts(patch.key)
-    vertices = place_vertices(local, grid, node, axis, patch.place, patch.ends)
-    slopes = near_linear_gradient(local, vertices)[1]
+    node, axis, faces = patch.node, patch.axis, patch.faces
+    vertices, slopes = place_vertices(local, grid, node, axis, patch.place, patch.ends)
     off = depths(local, vertices, faces, lengths(slopes))
     off[on_caps(faces, vertices, grid)] = 0
     shared = np.flatnonzero(np.any((node % TILE == 0) & (axis[:, None] != np.arange(3)), axis=1))
     normals = with_caps(unit(-slopes), vertices, grid, within=axis == AT_NODE)
     return Piece(
-        keys=patch.key[shared],
+        keys=patch.keys(grid)[shared],
         shared=shared,
         vertices=vertices,
         normals=normals,
@@ -132,27 +128,15 @@ def _piece(scene: Scene, terms: Terms, grid: Grid, tile: Blocks) -> Piece | None
     )
 
 
-def _with_length(faces: Triangles) -> Triangles:
-    """Faces less those that edges without length, at the ends of cuts, have closed up."""
-    a, b, c = faces.T
-    return faces[(a != b) & (b != c) & (c != a)]
-
-
 def _step(terms: Terms, grid: Grid) -> float:
     """About how much the near-linear field changes across a cell."""
     return grid.cell * float(np.median(np.linalg.norm(terms.normal, axis=1))) if len(terms) else 1.0
 
 
-def _samples(terms: Terms, grid: Grid, blocks: Blocks) -> Samples:
-    """The near-linear field at the nodes of blocks, (n, 5, 5, 5); -inf beyond a cut."""
-    steps = np.arange(NODES)
-    index = [blocks[:, i, None] + steps for i in range(3)]
-    x, y, z = (nodes[i] for nodes, i in zip(grid.nodes, index, strict=True))
-    points = np.empty((3, len(blocks), NODES, NODES, NODES))
-    points[0], points[1], points[2] = x[:, :, None, None], y[:, None, :, None], z[:, None, None, :]
-    values = near_linear_single(terms, log_ratio(terms, points.reshape(3, -1).T), _ROUNDING).reshape(points.shape[1:])
-    beyond = [outside[i] for outside, i in zip(grid.outside, index, strict=True)]
-    if any(part.any() for part in beyond):
-        bx, by, bz = beyond
-        values[bx[:, :, None, None] | by[:, None, :, None] | bz[:, None, None, :]] = -np.inf
+def _samples(terms: Terms, grid: Grid, nodes: Numbers) -> Samples:
+    """The near-linear field at nodes (n, 3); -inf beyond a cut."""
+    values = near_linear_single(terms, log_ratio(terms, grid.points(nodes)), _ROUNDING)
+    for i, outside in enumerate(grid.outside):
+        if outside.any():
+            values[outside[np.minimum(nodes[:, i], len(outside) - 1)]] = -np.inf
     return values

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from hqmodel.field import Terms, near_linear_gradient
 
-from .mesh import Array, Triangles, crosses, dots, lengths, unit
+from .mesh import Array, Triangles, alike, crosses, dots, lengths, unit
 from .refine import to_surface
 
 Indices = NDArray[np.intp]
@@ -23,6 +23,8 @@ Plane = tuple[int, float]
 
 # Ends whose normals' cosine is less than this look different ways: on the mesh as it comes, and near a crease already found.
 _SHARP = (0.9, 0.95, 0.95)
+# By how much less sharp than that a face with such an edge may look, when its normals are in single precision.
+_SLACK = 1e-3
 # An edge is split where the surface is further from it than this share of a cell, and not next to its ends.
 _OFF = 0.02
 _ASIDE = 0.05
@@ -46,6 +48,7 @@ class Creased(NamedTuple):
 def creased(
     terms: Terms,
     vertices: Array,
+    normals: NDArray[np.float32],
     faces: Triangles,
     off: NDArray[np.float32],
     cell: float,
@@ -54,11 +57,13 @@ def creased(
 ) -> Creased | None:
     """The mesh with edges split at its creases; None where there are none.
 
-    `off` (F,) is how far faces' middles are from the surface; those well on it are left alone, and edges between `pinched`
-    vertices (V,), as more than two faces may meet there. Edges in one of the `planes` (axis, coordinate) are split in it.
+    `normals` (V, 3) are the vertices', `off` (F,) is how far faces' middles are from the surface: those well on it are left
+    alone, and edges between `pinched` vertices (V,), as more than two faces may meet there. Edges in one of the `planes` (axis,
+    coordinate) are split in it.
     """
     marked = np.zeros(len(vertices), dtype=bool)
-    marked[faces[np.abs(off) > _OFF / 4 * cell]] = True
+    rough = faces[np.abs(off) > _OFF / 4 * cell]
+    marked[rough[~alike(normals, rough, _SHARP[0] + _SLACK)]] = True
     near = np.count_nonzero(marked[faces], axis=1) >= 2
     corners, which = np.unique(faces[near], return_inverse=True)
     part = _Part(terms, vertices[corners], which.reshape(-1, 3), cell, planes)
@@ -90,7 +95,9 @@ class _Part:
 
     def split(self, chosen: Callable[[Indices], NDArray[np.bool_]], sharp: float) -> None:
         """Split the chosen ones of the edges (n, 2), lower vertex first, that have a crease between their ends."""
-        edges = np.unique(np.sort(self.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
+        count, following = len(self.points), np.roll(self.faces, -1, axis=1)
+        keys = np.unique(np.minimum(self.faces, following) * count + np.maximum(self.faces, following))
+        edges = np.stack(np.divmod(keys, count), axis=1)
         edges, middles = self._creases(edges[chosen(edges)], sharp)
         while len(edges):
             points = np.concatenate([self.points, middles])

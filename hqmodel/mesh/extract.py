@@ -1,12 +1,12 @@
-"""Triangles of sampled blocks by scikit-image's marching cubes (Lewiner et al. 2003), every vertex named by its grid edge.
+"""Triangles of a tile's blocks by scikit-image's marching cubes (Lewiner et al. 2003), every vertex named by its grid edge.
 
-Blocks are handed over packed one after another along the first axis, the cells between them masked out, so that one call does
-for hundreds. Vertices are told apart by the edge they lie on, never by rounding coordinates.
+Only nodes of the blocks are sampled, each once; the other cells of the tile are masked out. Vertices are told apart by the edge
+they lie on, never by rounding coordinates.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -18,130 +18,119 @@ from .cull import Blocks
 from .grid import BLOCK, Grid
 from .mesh import Triangles
 
-NODES = BLOCK + 1
 INSIDE, AT_NODE = 3, 4
 Samples = NDArray[np.float32]
-# Blocks in one call; float32 coordinates of the packed array stay finer than a thousandth of a cell.
-_PACK = 560
+Numbers = NDArray[np.int64]
+_NODES = BLOCK + 1
 # The interpolated position along an edge only names the edge. Samples are kept this far off the level and below the largest
 # by this much, so that no position comes near a node.
 _LEAST, _MOST = np.float32(0.05), np.float32(12.0)
 _ON_NODE = np.float32(1e-3)
 # What a vertex lies on by the axes (bits 1, 2 and 4) along which its position is between nodes: an edge, or inside a cell.
 _AXIS_OF_BITS = np.array([INSIDE, 0, 1, INSIDE, 2, INSIDE, INSIDE, INSIDE], dtype=np.int64)
-# The steps to the far node of each kind of edge in an array of blocks.
-_STRIDE = np.array([NODES * NODES, NODES, 1, 0, 0])
 
 
 @dataclass(frozen=True, eq=False)
 class Patch:
     """Triangles and what their vertices lie on, each once.
 
-    `key` (V,) sorted: one number for each grid edge, see `Edges`. `place` (V, 3): where marching cubes put it, in cells from
-    the edge's first node. `ends` (V, 2): the samples at both nodes, positive inside. `pinched` (V,) tells those on faces of
-    cells that are inside at two opposite corners only: where edges with four triangles may arise.
+    `node` (V, 3) and `axis` (V,): the first node of the grid's edge and the axis that it runs along; `INSIDE` for a point
+    inside the cell at that node, `AT_NODE` for the node itself, where an edge without length leaves a cut. `place` (V, 3):
+    where marching cubes put it, in cells from that node. `ends` (V, 2): the samples at both nodes, positive inside. `pinched`
+    (V,) tells those on faces of cells that are inside at two opposite corners only: where edges with four triangles may arise.
     """
 
-    key: NDArray[np.int64]
+    node: Numbers
+    axis: Numbers
     place: Samples
     ends: Samples
     pinched: NDArray[np.bool_]
     faces: Triangles
 
-
-class Edges:
-    """Numbers for a grid's edges: a node and the axis the edge runs along; `INSIDE` for a point inside the cell at that node,
-    `AT_NODE` for the node itself, where an edge without length leaves a cut."""
-
-    def __init__(self, grid: Grid) -> None:
-        self._ny, self._nz = len(grid.nodes[1]), len(grid.nodes[2])
-
-    def number(
-        self, x: NDArray[np.int64], y: NDArray[np.int64], z: NDArray[np.int64], axis: NDArray[np.int64]
-    ) -> NDArray[np.int64]:
-        """The number of each edge, (n,)."""
-        return ((x * self._ny + y) * self._nz + z) * (AT_NODE + 1) + axis
-
-    def parts(self, key: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Nodes (n, 3) and axes (n,) of edges (n,)."""
-        rest, axis = np.divmod(key, AT_NODE + 1)
-        rest, z = np.divmod(rest, self._nz)
-        x, y = np.divmod(rest, self._ny)
-        return np.stack([x, y, z]).T, axis
+    def keys(self, grid: Grid) -> Numbers:
+        """One number for each of the grid's edges, (V,)."""
+        _, ny, nz = (len(nodes) for nodes in grid.nodes)
+        x, y, z = self.node.T
+        return ((x * ny + y) * nz + z) * (AT_NODE + 1) + self.axis
 
 
-def extract(blocks: Blocks, edges: Edges, sample: Callable[[Blocks], Samples], steepness: float) -> Patch | None:
-    """The level set 0 of a field, positive inside, in blocks (n, 3); None where there is none.
+def extract(blocks: Blocks, tile: Blocks, size: int, sample: Callable[[Numbers], Samples], steepness: float) -> Patch | None:
+    """The level set 0 of a field, positive inside, in blocks (n, 3) of the tile of `size` cells whose first node is `tile` (3,).
 
-    `sample` gives the field at the nodes of some of them, (m, 5, 5, 5); `steepness` brings a cell's difference in it to about 1.
+    `sample` gives the field at nodes (m, 3), -inf beyond a cut; `steepness` brings a cell's difference in it to about 1. None
+    where there is no surface.
     """
-    patches = list(_packed(blocks, edges, sample, steepness))
-    if not patches:
+    shape = (size + 1,) * 3
+    strides = np.array([shape[1] * shape[2], shape[2], 1])
+    first = (blocks - tile) @ strides
+    of_block = (first[:, None] + _lattice(0, _NODES) @ strides).astype(np.int32)
+    used = np.zeros(np.prod(shape), dtype=bool)
+    used[of_block] = True
+    nodes = np.flatnonzero(used)
+    values = sample(np.stack(np.unravel_index(nodes, shape)).T + tile)
+    inside = np.zeros(used.shape, dtype=bool)
+    inside[nodes] = values > 0
+    if not inside.any() or inside[nodes].all():
         return None
-    starts = np.cumsum([0] + [len(patch.key) for patch in patches[:-1]], dtype=np.int32)
-    key, first, number = np.unique(np.concatenate([p.key for p in patches]), return_index=True, return_inverse=True)
-    number = number.reshape(-1).astype(np.int32)
-    pinched = np.zeros(len(key), dtype=bool)
-    pinched[number[np.concatenate([p.pinched for p in patches])]] = True
-    faces = np.concatenate([p.faces + start for p, start in zip(patches, starts, strict=True)])
-    return Patch(
-        key,
-        np.concatenate([p.place for p in patches])[first],
-        np.concatenate([p.ends for p in patches])[first],
-        pinched,
-        number[faces],
+    samples = np.full(used.shape, -1, dtype=np.float32)
+    samples[nodes] = values
+    volume = np.copysign(np.clip(np.abs(samples) * np.float32(steepness), _LEAST, _MOST), samples)
+    cells = np.zeros(used.shape, dtype=bool)
+    cells[first[:, None] + _lattice(1, _NODES) @ strides] = True  # a cell is masked by its far corner
+    found, faces, _, _ = marching_cubes(
+        volume.reshape(shape), 0.0, mask=cells.reshape(shape), gradient_direction="ascent", allow_degenerate=True
     )
+    if not len(faces):
+        return None
+    return _named(tile, strides, samples, _pinched(inside, of_block), found, faces.astype(np.int32, copy=False))
 
 
-def _packed(blocks: Blocks, edges: Edges, sample: Callable[[Blocks], Samples], steepness: float) -> Iterator[Patch]:
-    for start in range(0, len(blocks), _PACK):
-        pack = blocks[start : start + _PACK]
-        samples = sample(pack)
-        inside = samples > 0
-        crossed = inside.any(axis=(1, 2, 3)) & ~inside.all(axis=(1, 2, 3))
-        if not crossed.any():
-            continue
-        pack, samples, inside = pack[crossed], samples[crossed], inside[crossed]
-        size = np.clip(np.abs(samples) * np.float32(steepness), _LEAST, _MOST)
-        volume = np.where(inside, size, -size).reshape(-1, NODES, NODES)
-        mask = np.ones(volume.shape, dtype=bool)
-        mask[::NODES] = False  # a cell is masked by its far corner
-        found, faces, _, _ = marching_cubes(volume, 0.0, mask=mask, gradient_direction="ascent")
-        yield _named(pack, edges, samples.reshape(-1), _pinched(inside).reshape(-1), found, faces.astype(np.int32, copy=False))
+def _lattice(start: int, end: int) -> Numbers:
+    steps = np.arange(start, end)
+    return np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
 
 
-def _named(blocks: Blocks, edges: Edges, samples: Samples, pinched: NDArray[np.bool_], found: Samples, faces: Triangles) -> Patch:
-    nodes = [np.floor(column + _ON_NODE) for column in found.T]
+def _named(
+    tile: Blocks, strides: Numbers, samples: Samples, pinched: NDArray[np.bool_], found: Samples, faces: Triangles
+) -> Patch:
+    columns = found.T
+    nodes = [np.floor(column + _ON_NODE) for column in columns]
     bits = sum(
-        (column - node > 2 * _ON_NODE) * np.int64(1 << i) for i, (column, node) in enumerate(zip(found.T, nodes, strict=True))
+        (column - node > 2 * _ON_NODE) * np.int64(1 << i) for i, (column, node) in enumerate(zip(columns, nodes, strict=True))
     )
     axis = _AXIS_OF_BITS[bits]
-    x, y, z = (node.astype(np.int64) for node in nodes)
-    near = (x * NODES + y) * NODES + z
-    far = near + _STRIDE[axis]
-    ends = np.stack([samples[near], samples[far]]).T
-    leaves = (axis < INSIDE) & (np.isneginf(ends[:, 0]) | np.isneginf(ends[:, 1]))
-    block, x = np.divmod(x, NODES)
-    if leaves.any():
-        moved = leaves & np.isneginf(ends[:, 0])
-        x, y, z = (node + (moved & (axis == i)) for i, node in enumerate((x, y, z)))
-        axis = np.where(leaves, AT_NODE, axis)
-    key = edges.number(blocks[block, 0] + x, blocks[block, 1] + y, blocks[block, 2] + z, axis)
     place = found - np.stack(nodes).T
-    return Patch(key, place, ends, (pinched[near] & pinched[far]) | leaves, faces)
+    node = np.stack([part.astype(np.int64) for part in nodes]).T
+    near = node @ strides
+    far = near + np.append(strides, [0, 0])[axis]
+    ends = np.stack([samples[near], samples[far]]).T
+    pinch = pinched[near] & pinched[far]
+    leaves = (axis < INSIDE) & (np.isneginf(ends[:, 0]) | np.isneginf(ends[:, 1]))
+    node += tile
+    if not leaves.any():
+        return Patch(node, axis, place, ends, pinch, faces)
+    for i in range(3):
+        node[:, i] += leaves & np.isneginf(ends[:, 0]) & (axis == i)
+    axis = np.where(leaves, AT_NODE, axis)
+    _, kept, number = np.unique(np.column_stack([node, axis]), axis=0, return_index=True, return_inverse=True)
+    faces = number.reshape(-1).astype(np.int32)[faces]
+    a, b, c = faces.T
+    with_length = (a != b) & (b != c) & (c != a)
+    return Patch(node[kept], axis[kept], place[kept], ends[kept], (pinch | leaves)[kept], faces[with_length])
 
 
-def _pinched(inside: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """The nodes, in blocks (n, 5, 5, 5), of those of the cells' faces that are inside at two opposite corners only."""
-    rows = inside.reshape(len(inside), -1)
-    result = np.zeros(rows.shape, dtype=bool)
-    for a, b in combinations(_STRIDE[:3], 2):
-        first = np.arange(rows.shape[1] - a - b)
-        on_face = (first // a % NODES < BLOCK) & (first // b % NODES < BLOCK)
+def _pinched(inside: NDArray[np.bool_], of_block: NDArray[np.int32]) -> NDArray[np.bool_]:
+    """The nodes of those of the blocks' cells' faces that are inside at two opposite corners only."""
+    rows = inside[of_block]
+    result = np.zeros(inside.shape, dtype=bool)
+    index = np.arange(rows.shape[1])
+    for a, b in combinations((_NODES * _NODES, _NODES, 1), 2):
+        first = index[: len(index) - a - b]
+        on_face = (first // a % _NODES < BLOCK) & (first // b % _NODES < BLOCK)
         corners = [slice(start, start + len(first)) for start in (0, a, b, a + b)]
         c00, c01, c10, c11 = (rows[:, corner] for corner in corners)
         crossed = (c00 == c11) & (c01 == c10) & (c00 != c01) & on_face
         if crossed.any():
             for corner in corners:
-                result[:, corner] |= crossed
+                result[of_block[:, corner][crossed]] = True
     return result

@@ -12,7 +12,7 @@ from .creases import creased
 from .grid import Grid
 from .manifold import parted
 from .measure import depths, largest_distance
-from .mesh import Array, Mesh, Triangles, dots, lengths, reflected
+from .mesh import Array, Mesh, Triangles, alike, lengths, reflected
 from .shade import colored, on_caps, with_caps
 from .weld import Weld
 
@@ -30,10 +30,7 @@ _QUANTUM = 2.0**-20
 
 def pulls(faces: Triangles, off: NDArray[np.float32], normals: NDArray[np.float32], cell: float) -> NDArray[np.float32]:
     """The sum of `off` (F,), in quanta, over the smooth faces about each vertex, and their number, (V, 2); `normals` (V, 3)."""
-    a, b, c = (normals[faces[:, i]] for i in range(3))
-    smooth = np.abs(off) < _SMOOTH * cell
-    for m, n in ((a, b), (b, c), (c, a)):
-        smooth &= dots(m, n) > _ALIKE
+    smooth = (np.abs(off) < _SMOOTH * cell) & alike(normals, faces, _ALIKE)
     off = np.where(smooth, np.rint(off / (cell * _QUANTUM)), 0)
     result = np.zeros((2, len(normals)))
     for i in range(3):
@@ -48,7 +45,7 @@ def finished(scene: Scene, terms: Terms, grid: Grid, weld: Weld, mirrored: tuple
     _balance(vertices, normals, faces, off, weld.take("pull"), grid, mirrored)
     pinched, colors = weld.take("pinched"), weld.take("colors")
     planes = [(axis, plane) for axis, plane, _ in grid.cuts] + [(axis, 0.0) for axis in mirrored]
-    split = creased(terms, vertices, faces, off, grid.cell, planes, pinched)
+    split = creased(terms, vertices, normals, faces, off, grid.cell, planes, pinched)
     if split is not None:
         vertices, faces = np.concatenate([vertices, split.points]), split.faces
         normals = np.concatenate([normals, with_caps(split.normals, split.points, grid)])

@@ -42,6 +42,12 @@ def lengths(vectors: Array) -> Array:
     return np.sqrt(dots(vectors, vectors))
 
 
+def alike(normals: NDArray[np.float32], faces: Triangles, cosine: float) -> NDArray[np.bool_]:
+    """Whether the unit normals (V, 3) at the corners of each face, (F,), agree to within that cosine."""
+    a, b, c = (normals[faces[:, i]] for i in range(3))
+    return np.minimum(np.minimum(dots(a, b), dots(b, c)), dots(c, a)) > cosine
+
+
 def unit(vectors: Array) -> Array:
     """Vectors (n, 3) divided by their lengths."""
     return vectors / np.maximum(lengths(vectors), 1e-200)[:, None]

@@ -9,21 +9,24 @@ from hqmodel.field import Terms, log_ratio, near_linear, near_linear_gradient
 
 from .extract import INSIDE, Samples
 from .grid import Grid
-from .mesh import Array, lengths
+from .mesh import Array, dots, lengths
 
 # A vertex nearer to a node than this share of the edge is moved off it and back onto the surface sideways, so that the
 # vertices around a node that lies almost on the surface stay apart.
 _CROWDED = 0.01
 # Where that fails, at a kink or a tip, it stays on its edge, this share of it away from the node.
 _APART = 1e-3
+# A Newton step shorter than this share of its edge ends where another would be shorter than a hundred-thousandth.
+_NEARLY = 5e-3
 # The width of a root's bracket, as a share of its edge.
 _PRECISE = 1e-8
 
 
 def place_vertices(
     terms: Terms, grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64], place: Samples, ends: Samples
-) -> Array:
-    """World positions (V, 3), on the surface, of the vertices on the grid's edges from `node` (V, 3) along `axis` (V,).
+) -> tuple[Array, Array]:
+    """World positions (V, 3), on the surface, of the vertices on the grid's edges from `node` (V, 3) along `axis` (V,), and the
+    near-linear field's gradients there, (V, 3).
 
     `place` and `ends` are a patch's. Exactly in the planes of the grid that their edges lie in at a mirror plane or a cut.
     """
@@ -33,13 +36,14 @@ def place_vertices(
     for i, nodes in enumerate(grid.nodes):
         along = axis[free] == i
         end[along, i] = nodes[node[free[along], i] + 1]
-    share = _roots(terms, start, end, ends[free])
-    points[free] = start + (end - start) * share[:, None]
+    points[free], slopes, share = _on_edges(terms, start, end, ends[free])
+    again = [np.flatnonzero(axis >= INSIDE)]
     near = np.flatnonzero((share < _CROWDED) | (share > 1 - _CROWDED))
     if near.size:
         way, share = end[near] - start[near], share[near, None]
         aside, beside = (start[near] + way * np.clip(share, d, 1 - d) for d in (_CROWDED, _APART))
         points[free[near]] = _projected(terms, aside, beside, _held(grid, node[free[near]], axis[free[near]]), grid.cell)
+        again.append(free[near])
     centre = np.flatnonzero(axis == INSIDE)
     if centre.size:
         low, high = points[centre], grid.points(node[centre] + 1)
@@ -49,7 +53,32 @@ def place_vertices(
         strayed = ~on_cap[:, 0] & np.all(moved == inner, axis=1)
         moved[strayed] = _nearest_root(terms, moved[strayed], low[strayed], high[strayed])
         points[centre] = moved
-    return points
+    if len(free) < len(points):
+        slopes, of_edges = np.empty_like(points), slopes
+        slopes[free] = of_edges
+    rest = np.concatenate(again)
+    slopes[rest] = near_linear_gradient(terms, points[rest])[1]
+    return points, slopes
+
+
+def _on_edges(terms: Terms, start: Array, end: Array, ends: Samples) -> tuple[Array, Array, Array]:
+    """Where edges from start to end (n, 3) meet the surface: the points (n, 3), the gradients there (n, 3), and the shares of the
+    edges (n,).
+
+    One Newton step from where the samples at the ends put it, as these are nearly linear; where that is not enough, a root.
+    """
+    share = ends[:, 0] / (ends[:, 0] - ends[:, 1]).astype(float)
+    points = start + (end - start) * share[:, None]
+    values, slopes = near_linear_gradient(terms, points)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        step = -values / dots(slopes, end - start)
+        near = (np.abs(step) < _NEARLY) & (share + step > 0) & (share + step < 1)
+    share[near] += step[near]
+    rest = np.flatnonzero(~near)
+    share[rest] = _roots(terms, start[rest], end[rest], ends[rest])
+    points = start + (end - start) * share[:, None]
+    slopes[rest] = near_linear_gradient(terms, points[rest])[1]
+    return points, slopes, share
 
 
 def _nearest_root(terms: Terms, points: Array, low: Array, high: Array) -> Array:
