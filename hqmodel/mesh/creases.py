@@ -21,8 +21,9 @@ from .refine import to_surface
 Indices = NDArray[np.intp]
 Plane = tuple[int, float]
 
-# Ends whose normals' cosine is less than this look different ways: on the mesh as it comes, and near a crease already found.
-_SHARP = (0.9, 0.95, 0.95)
+# Ends whose normals' cosine is less than this look different ways.
+_SHARP = 0.95
+_ROUNDS = 3
 # By how much less sharp than that a face with such an edge may look, when its normals are in single precision.
 _SLACK = 1e-3
 # An edge is split where the surface is further from it than this share of a cell, and not next to its ends.
@@ -63,13 +64,13 @@ def creased(
     """
     marked = np.zeros(len(vertices), dtype=bool)
     rough = faces[np.abs(off) > _OFF / 4 * cell]
-    marked[rough[~alike(normals, rough, _SHARP[0] + _SLACK)]] = True
+    marked[rough[~alike(normals, rough, _SHARP + _SLACK)]] = True
     near = np.count_nonzero(marked[faces], axis=1) >= 2
     corners, which = np.unique(faces[near], return_inverse=True)
     part = _Part(terms, vertices[corners], which.reshape(-1, 3), cell, planes)
-    part.split(lambda edges: np.all(marked[corners[edges]], axis=1) & ~np.all(pinched[corners[edges]], axis=1), _SHARP[0])
-    for sharp in _SHARP[1:]:
-        part.split(lambda edges: edges[:, 1] >= len(corners), sharp)
+    part.split(lambda edges: np.all(marked[corners[edges]], axis=1) & ~np.all(pinched[corners[edges]], axis=1))
+    for _ in range(_ROUNDS - 1):
+        part.split(lambda edges: edges[:, 1] >= len(corners))
     if len(part.points) == len(corners):
         return None
     number = np.append(corners, np.arange(len(part.points) - len(corners)) + len(vertices)).astype(np.int32)
@@ -93,12 +94,12 @@ class _Part:
     def _looking(self, points: Array) -> Array:
         return unit(-near_linear_gradient(self._terms, points)[1])
 
-    def split(self, chosen: Callable[[Indices], NDArray[np.bool_]], sharp: float) -> None:
+    def split(self, chosen: Callable[[Indices], NDArray[np.bool_]]) -> None:
         """Split the chosen ones of the edges (n, 2), lower vertex first, that have a crease between their ends."""
         count, following = len(self.points), np.roll(self.faces, -1, axis=1)
         keys = np.unique(np.minimum(self.faces, following) * count + np.maximum(self.faces, following))
         edges = np.stack(np.divmod(keys, count), axis=1)
-        edges, middles = self._creases(edges[chosen(edges)], sharp)
+        edges, middles = self._creases(edges[chosen(edges)])
         while len(edges):
             points = np.concatenate([self.points, middles])
             faces, parent, uses = _pieces(self.faces, edges, points)
@@ -114,7 +115,7 @@ class _Part:
                 return
             edges, middles = edges[~unwanted], middles[~unwanted]
 
-    def _creases(self, edges: Indices, sharp: float) -> tuple[Indices, Array]:
+    def _creases(self, edges: Indices) -> tuple[Indices, Array]:
         """Those of the edges that are to be split, and where."""
         first, second = _in_order(self.points, edges)
         a, b = self.points[first], self.points[second]
@@ -122,7 +123,7 @@ class _Part:
         for axis, plane in self._planes:
             held[:, axis] |= (a[:, axis] == plane) & (b[:, axis] == plane)
         m, n = (unit(np.where(held, 0.0, self.normals[end])) for end in (first, second))
-        rows = np.flatnonzero(dots(m, n) < sharp)
+        rows = np.flatnonzero(dots(m, n) < _SHARP)
         a, b, held = a[rows], b[rows], held[rows]
         points, last = to_surface(self._terms, _meeting(a, b, m[rows], n[rows], self._cell), 0.1 * self._cell, 8, held)
         along = b - a
