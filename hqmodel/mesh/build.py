@@ -113,7 +113,7 @@ def _piece(scene: Scene, terms: Terms, grid: Grid, tile: Blocks) -> Piece | None
     vertices, slopes = place_vertices(local, grid, node, axis, patch.place, patch.ends)
     off = depths(local, vertices, faces, lengths(slopes))
     off[on_caps(faces, vertices, grid)] = 0
-    shared = np.flatnonzero(np.any((node % TILE == 0) & (axis[:, None] != np.arange(3)), axis=1))
+    shared = np.flatnonzero(np.logical_or.reduce([(node[:, i] % TILE == 0) & (axis != i) for i in range(3)]))
     normals = with_caps(unit(-slopes), vertices, grid, within=axis == AT_NODE)
     return Piece(
         keys=patch.keys(grid)[shared],

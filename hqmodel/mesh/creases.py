@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from hqmodel.field import Terms, near_linear_gradient
 
-from .mesh import Array, Triangles, alike, crosses, dots, lengths, unit
+from .mesh import Array, Triangles, alike, crosses, dots, lengths, marks, unit
 from .refine import to_surface
 
 Indices = NDArray[np.intp]
@@ -65,7 +65,7 @@ def creased(
     marked = np.zeros(len(vertices), dtype=bool)
     rough = faces[np.abs(off) > _OFF / 4 * cell]
     marked[rough[~alike(normals, rough, _SHARP + _SLACK)]] = True
-    near = np.count_nonzero(marked[faces], axis=1) >= 2
+    near = marks(marked, faces) >= 2
     corners, which = np.unique(faces[near], return_inverse=True)
     part = _Part(terms, vertices[corners], which.reshape(-1, 3), cell, planes)
     part.split(lambda edges: np.all(marked[corners[edges]], axis=1) & ~np.all(pinched[corners[edges]], axis=1))

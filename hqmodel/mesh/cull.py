@@ -12,7 +12,7 @@ from .grid import BLOCK, Grid
 Blocks = NDArray[np.int64]
 
 # Cells along a side of a tile: what one job samples with the terms that matter there.
-TILE = 64
+TILE = 128
 
 
 def tiles(terms: Terms, grid: Grid) -> Blocks:

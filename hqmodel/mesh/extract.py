@@ -68,21 +68,20 @@ def extract(blocks: Blocks, tile: Blocks, size: int, sample: Callable[[Numbers],
     used[of_block] = True
     nodes = np.flatnonzero(used)
     values = sample(np.stack(np.unravel_index(nodes, shape)).T + tile)
-    inside = np.zeros(used.shape, dtype=bool)
-    inside[nodes] = values > 0
-    if not inside.any() or inside[nodes].all():
+    if values.max() <= 0 or values.min() > 0:
         return None
-    samples = np.full(used.shape, -1, dtype=np.float32)
-    samples[nodes] = values
-    volume = np.copysign(np.clip(np.abs(samples) * np.float32(steepness), _LEAST, _MOST), samples)
-    cells = np.zeros(used.shape, dtype=bool)
+    volume = np.full(used.shape, -_LEAST)
+    volume[nodes] = np.copysign(np.clip(np.abs(values) * np.float32(steepness), _LEAST, _MOST), values)
+    cells = used
+    cells[:] = False
     cells[first[:, None] + _lattice(1, _NODES) @ strides] = True  # a cell is masked by its far corner
     found, faces, _, _ = marching_cubes(
         volume.reshape(shape), 0.0, mask=cells.reshape(shape), gradient_direction="ascent", allow_degenerate=True
     )
     if not len(faces):
         return None
-    return _named(tile, strides, samples, _pinched(inside, of_block), found, faces.astype(np.int32, copy=False))
+    volume[nodes] = values
+    return _named(tile, strides, volume, _pinched(volume, of_block), found, faces.astype(np.int32, copy=False))
 
 
 def _lattice(start: int, end: int) -> Numbers:
@@ -119,16 +118,16 @@ def _named(
     return Patch(node[kept], axis[kept], place[kept], ends[kept], (pinch | leaves)[kept], faces[with_length])
 
 
-def _pinched(inside: NDArray[np.bool_], of_block: NDArray[np.int32]) -> NDArray[np.bool_]:
+def _pinched(samples: Samples, of_block: NDArray[np.int32]) -> NDArray[np.bool_]:
     """The nodes of those of the blocks' cells' faces that are inside at two opposite corners only."""
-    rows = inside[of_block]
-    result = np.zeros(inside.shape, dtype=bool)
-    index = np.arange(rows.shape[1])
+    inside = samples[of_block] > 0
+    result = np.zeros(samples.shape, dtype=bool)
+    index = np.arange(inside.shape[1])
     for a, b in combinations((_NODES * _NODES, _NODES, 1), 2):
         first = index[: len(index) - a - b]
         on_face = (first // a % _NODES < BLOCK) & (first // b % _NODES < BLOCK)
         corners = [slice(start, start + len(first)) for start in (0, a, b, a + b)]
-        c00, c01, c10, c11 = (rows[:, corner] for corner in corners)
+        c00, c01, c10, c11 = (inside[:, corner] for corner in corners)
         crossed = (c00 == c11) & (c01 == c10) & (c00 != c01) & on_face
         if crossed.any():
             for corner in corners:

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from .mesh import Array, Mesh, Triangles
+from .mesh import Array, Mesh, Triangles, marks
 
 _ROUNDS = 8
 # How far the new vertex moves from the edge into its sheet.
@@ -70,7 +70,9 @@ def _parted_once(mesh: Mesh, edges: list[tuple[int, int]]) -> Mesh:
 
 def _directed_twice(faces: Triangles, suspects: NDArray[np.bool_]) -> list[tuple[int, int]]:
     """Edges (a, b), a < b, between suspects (V,) along which more than one face runs in the same direction."""
-    near = faces[np.count_nonzero(suspects[faces], axis=1) >= 2].astype(np.int64)
+    if not suspects.any():
+        return []
+    near = faces[marks(suspects, faces) >= 2].astype(np.int64)
     start, end = near.ravel(), np.roll(near, -1, axis=1).ravel()
     both = suspects[start] & suspects[end]
     keys, times = np.unique(start[both] * len(suspects) + end[both], return_counts=True)

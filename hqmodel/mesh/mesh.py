@@ -31,6 +31,12 @@ class Mesh:
     surface_error: float | None = None
 
 
+def marks(marked: NDArray[np.bool_], faces: Triangles) -> NDArray[np.uint8]:
+    """How many corners of each face, (F,), are marked, (V,)."""
+    of_vertex = marked.view(np.uint8)
+    return of_vertex[faces[:, 0]] + of_vertex[faces[:, 1]] + of_vertex[faces[:, 2]]
+
+
 def dots(a: NDArray[Any], b: NDArray[Any]) -> NDArray[Any]:
     """Scalar products (n,) of a and b, (n, 3) each; of no row does the last bit depend on its neighbours, as in np.einsum."""
     (ax, ay, az), (bx, by, bz) = a.T, b.T
