@@ -38,8 +38,11 @@ test: system-test $(VENV)/.installed-for-tests
 	$(BIN)/lint-imports
 	$(BIN)/python -m pytest -n 2
 
-bench: system-run $(VENV)/.installed-for-tests
-	$(BIN)/python -m benchmarks.export
+bench: system-run $(VENV)/.installed-for-benchmarks
+	$(BIN)/python -m benchmarks.meshers --cells 256 384 512
+	$(BIN)/python -m benchmarks.meshers --large
+	$(BIN)/python -m benchmarks.accuracy
+	$(BIN)/python -m benchmarks.accuracy --cells 128 --gamma 400
 
 pictures: system-test $(VENV)/.installed
 	LIBGL_ALWAYS_SOFTWARE=1 xvfb-run -a -s "-screen 0 1400x900x24" $(BIN)/python docs/pictures.py
@@ -66,6 +69,10 @@ $(VENV)/.installed: pyproject.toml | $(VENV)/bin/python
 
 $(VENV)/.installed-for-tests: pyproject.toml | $(VENV)/bin/python
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[test]"
+	@touch $@ $(VENV)/.installed
+
+$(VENV)/.installed-for-benchmarks: pyproject.toml | $(VENV)/bin/python
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[bench]"
 	@touch $@ $(VENV)/.installed
 
 # System packages: installed where apt is there and we may, else named. The modeller may do without (a driver may bring its
