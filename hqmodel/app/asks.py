@@ -73,10 +73,12 @@ class Problem:
 
 @dataclass(frozen=True)
 class ExportSettings:
-    """What a mesh is written as, and where. None for unit, size or up: what the format's users expect."""
+    """What a mesh is written as, and where. None for unit, size or up: what the format's users expect; for the number of
+    triangles: all that there are."""
 
     path: Path
     resolution: int = 256
+    target_faces: int | None = None
     unit: Unit | None = None
     size: float | None = None
     up: Up | None = None

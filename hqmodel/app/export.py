@@ -70,7 +70,7 @@ class ExportJob:
 
         started = perf_counter()
         settings, suffix = self.settings, self.settings.path.suffix.lower()
-        body = mesh.polygonize(self._scene, settings.resolution, progress=self._report)
+        body = mesh.polygonize(self._scene, settings.resolution, self._report, target_faces=settings.target_faces)
         self._report(0.9, "Measuring")
         report = mesh.report(body)
         fitted = mesh.fitted(body, suffix, unit=settings.unit, size=settings.size, up=settings.up)

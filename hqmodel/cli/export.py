@@ -23,6 +23,9 @@ Output = Annotated[
     ),
 ]
 Resolution = Annotated[int, typer.Option("--resolution", metavar="N", min=4, max=2048, help="Cells along the longest side.")]
+TargetFaces = Annotated[
+    int | None, typer.Option("--target-faces", metavar="N", min=4, help="Reduce the mesh to at most so many triangles.")
+]
 Unit_ = Annotated[Unit | None, typer.Option("--unit", help="The unit that lengths in the file are in.")]
 Size = Annotated[float | None, typer.Option("--size", metavar="X", help="The longest side, in that unit.")]
 Up_ = Annotated[Up | None, typer.Option("--up", help="The axis that points up; by default what the format's users expect.")]
@@ -34,6 +37,7 @@ def export(
     preset: Preset,
     output: Output,
     resolution: Resolution = 256,
+    target_faces: TargetFaces = None,
     unit: Unit_ = None,
     size: Size = None,
     up: Up_ = None,
@@ -57,7 +61,7 @@ def export(
     checked(output, mesh.FORMATS, [preset])
     try:
         with progress(quiet) as report:
-            body = mesh.sized(mesh.polygonize(scene, resolution, report), size)
+            body = mesh.sized(mesh.polygonize(scene, resolution, report, target_faces=target_faces), size)
         result = mesh.report(body)
         shaded = replace(body, colors=body.colors if colors else None, normals=body.normals if normals else None)
         with writing(output) as streams:

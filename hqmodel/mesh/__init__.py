@@ -1,12 +1,13 @@
 """From the field to triangles, and triangles to files."""
 
-from .build import MAX_RESOLUTION, Progress, polygonize
+from .build import FEWEST_FACES, MAX_RESOLUTION, Progress, polygonize
 from .formats import write
 from .measure import report
 from .mesh import Mesh, MeshError
 from .placing import FORMATS, METRES, SIZES, UP_AXIS, fitted, sized
 
 __all__ = [
+    "FEWEST_FACES",
     "FORMATS",
     "MAX_RESOLUTION",
     "METRES",

@@ -32,22 +32,33 @@ from .weld import Piece, Weld
 
 Progress = Callable[[float, str], None]
 MAX_RESOLUTION = 2048
+FEWEST_FACES = 4
 # Samples this near to the level are rounding: fields that stay at their level throughout (an octahedron's slices) have no body.
 _ROUNDING = 1e-13
 # The coarsest step between numbers, as a share of the longest side.
 _COARSEST = 1e-7
 
 
-def polygonize(scene: Scene, resolution: int = 256, progress: Progress | None = None, *, shading: bool = True) -> Mesh:
+def polygonize(
+    scene: Scene,
+    resolution: int = 256,
+    progress: Progress | None = None,
+    *,
+    shading: bool = True,
+    target_faces: int | None = None,
+) -> Mesh:
     """The scene's body as a closed triangle mesh in world units, outward normals and sRGB colours included if `shading`.
 
     `resolution` is the number of cells along the body's longest side. `progress` is told the share done (0..1) and what is
     being done; whatever it raises ends the work. A scene that is its own mirror image gives a mesh that is, to the last bit.
+    `target_faces`: the mesh is reduced to at most so many triangles, where they are missed least, as far as it stays sound.
 
-    Raises MeshError when there is no surface, when the body has no end, or when the resolution is out of range.
+    Raises MeshError when there is no surface, when the body has no end, or when a number is out of range.
     """
     if not 4 <= resolution <= MAX_RESOLUTION:
         raise MeshError(f"resolution: expected a whole number from 4 to {MAX_RESOLUTION}, got {resolution}")
+    if target_faces is not None and target_faces < FEWEST_FACES:
+        raise MeshError(f"target faces: expected a whole number of at least {FEWEST_FACES}, got {target_faces}")
     tell = progress or _silent
     tell(0.0, "Finding the body")
     terms = Terms.of(scene)
@@ -62,8 +73,8 @@ def polygonize(scene: Scene, resolution: int = 256, progress: Progress | None = 
             weld.add(piece)
     if not weld:
         raise MeshError("no surface: the field does not reach its level anywhere at this resolution")
-    tell(0.95, "Joining")
-    mesh = finished(scene, terms, grid, weld, mirrored)
+    tell(0.95, "Joining" if target_faces is None else "Reducing")
+    mesh = finished(scene, terms, grid, weld, mirrored, target_faces)
     tell(1.0, "Done")
     return mesh if shading else replace(mesh, normals=None, colors=None)
 

@@ -13,8 +13,8 @@ from math import inf
 
 import numpy as np
 
-from .mesh import Array, Triangles
-from .quadrics import area, dot, error, least, quadrics
+from .mesh import Array, Triangles, dots
+from .quadrics import area, error, least, quadrics
 from .stars import Bits, Bools, Corners, Numbers, Stars, apart, closed, following
 
 Place = Callable[[Array, Bools], Array]
@@ -133,9 +133,9 @@ class _Work:
         held, also_held = _unpacked(self.kind[start]), _unpacked(self.kind[end])
         way, share = q - p, area(other) / area(one + other)
         middle = np.where(held, p, np.where(also_held, q, p + way * share[:, None]))
-        total, length = area(one + other), dot(way, way)
+        total, length = area(one + other), dots(way, way)
         step, off = least(one + other, middle - self.centre, ~(held | also_held), _SPREAD * total, length)
-        spread = _SPREAD * total * (dot(step, step) + share * (1 - share) * length)
+        spread = _SPREAD * total * (dots(step, step) + share * (1 - share) * length)
         return middle + step, np.where(off <= self.worst * total, np.maximum(off, 0.0) + spread, inf)
 
     def cheapest(self, left: int) -> Corners:
@@ -182,7 +182,7 @@ class _Work:
             asked = kind & _WITHIN == 0
             found = place(best[asked], _unpacked(kind[asked]))
             way, length = found - best[asked], self.points[end[asked]] - self.points[start[asked]]
-            best[asked] = np.where((dot(way, way) <= dot(length, length))[:, None], found, np.nan)  # not if it strays
+            best[asked] = np.where((dots(way, way) <= dots(length, length))[:, None], found, np.nan)  # not if it strays
         one, other = self.quadrics[start], self.quadrics[end]
         points, good = best, np.zeros(len(start), dtype=bool)
         simple = stars.simple()

@@ -13,7 +13,7 @@ from .mesh import Array, dots, lengths
 
 # A vertex nearer to a node than this share of the edge is moved off it and back onto the surface sideways, so that the
 # vertices around a node that lies almost on the surface stay apart.
-_CROWDED = 0.01
+_CROWDED = 0.05
 # Where that fails, at a kink or a tip, it stays on its edge, this share of it away from the node.
 _APART = 1e-3
 # A Newton step shorter than this share of its edge ends where another would be shorter than a hundred-thousandth.
@@ -153,7 +153,7 @@ def _projected(terms: Terms, points: Array, otherwise: Array, fixed: NDArray[np.
 
     A point that does not arrive, or would go further than a tenth of a cell, becomes `otherwise`.
     """
-    moved, last = to_surface(terms, points, 0.05 * cell, 4, fixed)
+    moved, last = to_surface(terms, points, 0.05 * cell, 3, fixed)
     arrived = (last < 1e-6 * cell) & (lengths(moved - points) < 0.1 * cell)
     return np.where(arrived[:, None], moved, otherwise)
 

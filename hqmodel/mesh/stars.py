@@ -12,8 +12,7 @@ from math import cos, radians, sin
 import numpy as np
 from numpy.typing import NDArray
 
-from .mesh import Array, Triangles
-from .quadrics import cross, dot
+from .mesh import Array, Triangles, crosses, dots
 
 Bits = NDArray[np.uint8]
 Bools = NDArray[np.bool_]
@@ -149,7 +148,7 @@ class Stars:
             p, a, b = (points.take(vertices[some], axis=0) for vertices in self.vertices)
             old, sharp = _shape(p, a, b)
             new, sharper = _shape(merged.take(edge, axis=0), a, b)
-            sharper[~(dot(old, new) > _TURN * np.sqrt(dot(old, old) * dot(new, new)))] = 0.0
+            sharper[~(dots(old, new) > _TURN * np.sqrt(dots(old, old) * dots(new, new)))] = 0.0
             np.minimum.at(before, edge, sharp)
             np.minimum.at(after, edge, sharper)
         rows = np.flatnonzero(which & (after < _SHARPEST**2))
@@ -162,7 +161,7 @@ class Stars:
 def _shape(a: Array, b: Array, c: Array) -> tuple[Array, Array]:
     """Normals (n, 3) of triangles as long as twice their areas, and the square of the sine of the smallest angle."""
     u, v, w = b - a, c - a, c - b
-    normal = cross(u, v)
-    x, y, z = dot(u, u), dot(v, v), dot(w, w)
+    normal = crosses(u, v)
+    x, y, z = dots(u, u), dots(v, v), dots(w, w)
     longest = np.maximum(np.maximum(x * y, y * z), z * x)
-    return normal, dot(normal, normal) / np.maximum(longest, 1e-300)
+    return normal, dots(normal, normal) / np.maximum(longest, 1e-300)

@@ -80,6 +80,8 @@ def change_save_reopen_export(hands: Hands) -> None:
     hands.click("//Export/##Format")
     hands.click("//$FOCUSED/Wavefront OBJ")
     hands.type_value("//Export/##resolution", 32)
+    hands.click("//Export/##reduced")
+    hands.type_value("//Export/##target faces", 1500)
     hands.click("//Export/Export")
     hands.wait(lambda: hands.session.export is None and bool(hands.session.dialogs))
     told = hands.session.dialogs[-1]
@@ -87,6 +89,7 @@ def change_save_reopen_export(hands: Hands) -> None:
     body = trimesh.load_mesh(hands.folder / "clay.obj")
     assert body.is_watertight
     assert len(body.faces) == told.report["faces"]
+    assert 1400 < len(body.faces) <= 1500
     hands.click("//Exported/OK")
     assert not hands.session.dialogs
 

@@ -45,6 +45,20 @@ def test_one_mesh_is_written_to_every_file(hqmodel: Command) -> None:
         assert body.volume == pytest.approx(result["volume"], rel=1e-4)
 
 
+def test_a_mesh_is_reduced(hqmodel: Command) -> None:
+    ended = hqmodel("export", "ball.json", "-o", "a.stl", "--resolution", 32, "--target-faces", 500, "--json")
+    result = json.loads(ended.out)
+    assert 480 <= result["faces"] <= 500
+    assert result["watertight"] is True
+    body = read("a.stl")
+    assert body.is_watertight
+    assert len(body.faces) == result["faces"]
+    ended = hqmodel("export", "ball.json", "-o", "b.stl", "--target-faces", 3)
+    assert (ended.status, ended.out) == (2, "")
+    assert "--target-faces" in ended.err
+    assert not Path("b.stl").exists()
+
+
 def test_the_same_options_give_the_same_bytes(hqmodel: Command) -> None:
     for name in ("a.obj", "b.obj"):
         assert hqmodel("export", "ball.json", "-o", name, "--resolution", 16).status == 0

@@ -76,9 +76,54 @@ def test_random_scenes(seed: int) -> None:
     assert report(mesh)["volume"] > 0
 
 
+@pytest.mark.parametrize("name", NAMES)
+def test_reduced(name: str) -> None:
+    here = case(name)
+    mesh = polygonize(here.scene, 96, target_faces=3000)
+    sound(mesh)
+    measured = report(mesh)
+    assert 2900 < measured["faces"] <= 3000
+    assert measured["euler_number"] == report(polygonize(here.scene, 96))["euler_number"]
+    assert abs(measured["volume"] / here.truth["volume"] - 1) < 0.02
+    side = float(np.max(np.ptp(mesh.vertices, axis=0)))
+    assert np.max(distance(here.scene, mesh)) < 5e-5 * side
+    assert mesh.normals is not None
+    np.testing.assert_allclose(np.linalg.norm(mesh.normals, axis=1), 1, atol=1e-5)
+
+
+def test_caps_stay_flat_when_reduced() -> None:
+    pipe = Scene(shapes=(Shape(strips=(Strip(normal=X), Strip(normal=Y))),), bounds=((-2, -2, -1), (2, 2, 1.5)))
+    mesh = polygonize(pipe, 90, target_faces=500)
+    sound(mesh)
+    measured = report(mesh)
+    assert measured["volume"] == pytest.approx(np.pi * 2.5, rel=0.02)
+    assert (measured["bounds"][0][2], measured["bounds"][1][2]) == (-1.0, 1.5)
+    assert mesh.normals is not None
+    on_top = mesh.vertices[:, 2] == 1.5
+    assert np.all(mesh.normals[on_top, 2] > 0.7)
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.6])
+def test_creases_are_sharp(turn: float) -> None:
+    """A block with hardly any rounding: its faces flat, its edges where they are, whichever way it is turned."""
+    rotation = (np.sin(turn / 2) * 0.6, 0.0, np.sin(turn / 2) * 0.8, np.cos(turn / 2))
+    strips = tuple(Strip(normal=n, gamma=400) for n in (X, Y, Z))
+    block = Scene(shapes=(Shape(strips=strips, transform=Transform(rotation=rotation)),))
+    mesh = polygonize(block, 64)
+    sound(mesh)
+    # a block chamfered as marching cubes leaves it, at most by half a cell, would lack some 12 * 2 * (cell / 2)^2 / 4
+    assert 8 - report(mesh)["volume"] < 0.003
+    corners = mesh.vertices[mesh.faces]
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    h = np.stack([Terms.of(block).normal @ normal for normal in across / np.linalg.norm(across, axis=1, keepdims=True)])
+    area = np.linalg.norm(across, axis=1)
+    assert np.sum(area[np.max(np.abs(h), axis=1) > 0.999]) > 0.96 * np.sum(area)
+
+
 @pytest.mark.parametrize("name", ["mirrored", "two_holes", "sphere", "astroid", "cuboctahedron"])
-def test_a_mirrored_scene_is_its_own_image_to_the_bit(name: str) -> None:
-    mesh = polygonize(case(name).scene, 26)
+@pytest.mark.parametrize("target", [None, 1000])
+def test_a_mirrored_scene_is_its_own_image_to_the_bit(name: str, target: int | None) -> None:
+    mesh = polygonize(case(name).scene, 26, target_faces=target)
     for axis in (0, 1) if name == "mirrored" else (0, 1, 2):
         image = mesh.vertices.copy()
         image[:, axis] *= -1
@@ -207,6 +252,16 @@ def test_what_has_no_mesh_says_so(scene: Scene, message: str) -> None:
         polygonize(scene, 32)
 
 
+def test_too_few_faces() -> None:
+    with pytest.raises(MeshError, match="target faces: expected a whole number of at least 4, got 3"):
+        polygonize(ball(0.0), 16, target_faces=3)
+
+
+def test_faces_lie_on_both_sides_of_the_surface() -> None:
+    """The faces of a ball enclose its volume, where those of one with all vertices on the sphere lack a share of 7e-5."""
+    assert report(polygonize(ball(0.0), 160))["volume"] == pytest.approx(4 / 3 * np.pi, rel=3e-5)
+
+
 @pytest.mark.parametrize("resolution", [0, 3, 2049])
 def test_resolution_out_of_range(resolution: int) -> None:
     with pytest.raises(MeshError, match="resolution: expected a whole number from 4 to 2048"):
@@ -228,3 +283,13 @@ def test_progress_rises_and_its_exception_ends_the_work() -> None:
 
     with pytest.raises(Stop):
         polygonize(case("composite_0").scene, 128, stop)
+
+
+@pytest.mark.parametrize("name", ["sphere", "tetra_sphere", "dodecahedron"])
+def test_no_slivers_where_the_surface_is_smooth(name: str) -> None:
+    mesh = polygonize(case(name).scene, 100)
+    corners = mesh.vertices[mesh.faces]
+    sides = np.roll(corners, -1, axis=1) - corners
+    sides /= np.linalg.norm(sides, axis=2, keepdims=True)
+    cosines = -np.einsum("fki,fki->fk", sides, np.roll(sides, -1, axis=1))
+    assert np.degrees(np.arccos(np.max(cosines))) > 1

@@ -27,6 +27,7 @@ _UNITS: dict[Unit | Literal[""], str] = {
 }
 _UPS: dict[Up | Literal[""], str] = {"z": "z up", "y": "y up"}
 _RESOLUTIONS = 16, 1024
+_FACES, _USUAL_FACES = (100, 1_000_000), 20_000
 
 
 def draw(dialog: Dialog) -> list[Intent]:
@@ -41,6 +42,7 @@ def draw(dialog: Dialog) -> list[Intent]:
         settings = replace(settings, path=settings.path.with_suffix(chosen))
     settings, browsing = _file(settings)
     settings = _resolution(settings)
+    settings = _reduction(settings)
     settings = _size(settings)
     usual = f"As usual for the format: {UP_AXIS.get(chosen, 'z')} up"
     settings = replace(settings, up=_combo("Up", settings.up or "", {"": usual, **_UPS}) or None)
@@ -126,6 +128,20 @@ def _resolution(settings: ExportSettings) -> ExportSettings:
     flags = imgui.SliderFlags_.logarithmic | imgui.SliderFlags_.always_clamp
     _, cells = imgui.slider_int("##resolution", settings.resolution, *_RESOLUTIONS, "%d cells along the longest side", flags)
     return replace(settings, resolution=cells)
+
+
+def _reduction(settings: ExportSettings) -> ExportSettings:
+    """To how many triangles the mesh shall be reduced."""
+    _label("Reduce to")
+    wanted, faces = settings.target_faces is not None, settings.target_faces or _USUAL_FACES
+    _, wanted = imgui.checkbox("##reduced", wanted)
+    imgui.same_line()
+    imgui.begin_disabled(not wanted)
+    imgui.set_next_item_width(-1)
+    flags = imgui.SliderFlags_.logarithmic | imgui.SliderFlags_.always_clamp
+    _, faces = imgui.slider_int("##target faces", faces, *_FACES, "%d triangles", flags)
+    imgui.end_disabled()
+    return replace(settings, target_faces=faces if wanted else None)
 
 
 def _size(settings: ExportSettings) -> ExportSettings:
