@@ -117,11 +117,11 @@ def _piece(scene: Scene, terms: Terms, grid: Grid, tile: Blocks) -> Piece | None
     blocks = blocks_of(local, grid, tile)
     if not len(blocks):
         return None
-    patch = extract(blocks, tile, TILE, lambda nodes: _samples(local, grid, nodes), 1.0 / _step(local, grid))
+    patch = extract(blocks, tile, TILE, lambda nodes: _samples(local, grid, nodes))
     if patch is None or not len(patch.faces):
         return None
     node, axis, faces = patch.node, patch.axis, patch.faces
-    vertices, slopes = place_vertices(local, grid, node, axis, patch.place, patch.ends)
+    vertices, slopes = place_vertices(local, grid, node, axis, patch.ends)
     off = depths(local, vertices, faces, lengths(slopes))
     off[on_caps(faces, vertices, grid)] = 0
     shared = np.flatnonzero(np.logical_or.reduce([(node[:, i] % TILE == 0) & (axis != i) for i in range(3)]))
@@ -137,11 +137,6 @@ def _piece(scene: Scene, terms: Terms, grid: Grid, tile: Blocks) -> Piece | None
         faces=faces,
         off=off,
     )
-
-
-def _step(terms: Terms, grid: Grid) -> float:
-    """About how much the near-linear field changes across a cell."""
-    return grid.cell * float(np.median(np.linalg.norm(terms.normal, axis=1))) if len(terms) else 1.0
 
 
 def _samples(terms: Terms, grid: Grid, nodes: Numbers) -> Samples:

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from hqmodel.field import Terms, log_ratio, near_linear, near_linear_gradient
 
-from .extract import INSIDE, Samples
+from .extract import AT_NODE, Samples
 from .grid import Grid
 from .mesh import Array, dots, lengths
 
@@ -23,41 +23,28 @@ _PRECISE = 1e-8
 
 
 def place_vertices(
-    terms: Terms, grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64], place: Samples, ends: Samples
+    terms: Terms, grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64], ends: Samples
 ) -> tuple[Array, Array]:
     """World positions (V, 3), on the surface, of the vertices on the grid's edges from `node` (V, 3) along `axis` (V,), and the
-    near-linear field's gradients there, (V, 3).
+    near-linear field's gradients there, (V, 3). `ends` are a patch's.
 
-    `place` and `ends` are a patch's. Exactly in the planes of the grid that their edges lie in at a mirror plane or a cut.
+    Exactly in the planes of the grid that their edges lie in at a mirror plane or a cut.
     """
-    points = grid.points(node)
-    free = np.flatnonzero(axis < INSIDE)
+    points, slopes = grid.points(node), np.empty((3, len(node))).T
+    free = np.flatnonzero(axis < AT_NODE)
     start, end = points[free], points[free].copy()
     for i, nodes in enumerate(grid.nodes):
         along = axis[free] == i
         end[along, i] = nodes[node[free[along], i] + 1]
-    points[free], slopes, share = _on_edges(terms, start, end, ends[free])
-    again = [np.flatnonzero(axis >= INSIDE)]
+    points[free], slopes[free], share = _on_edges(terms, start, end, ends[free])
+    again = np.flatnonzero(axis == AT_NODE)
     near = np.flatnonzero((share < _CROWDED) | (share > 1 - _CROWDED))
     if near.size:
         way, share = end[near] - start[near], share[near, None]
         aside, beside = (start[near] + way * np.clip(share, d, 1 - d) for d in (_CROWDED, _APART))
         points[free[near]] = _projected(terms, aside, beside, _held(grid, node[free[near]], axis[free[near]]), grid.cell)
-        again.append(free[near])
-    centre = np.flatnonzero(axis == INSIDE)
-    if centre.size:
-        low, high = points[centre], grid.points(node[centre] + 1)
-        inner = low + (high - low) * place[centre]
-        on_cap = np.broadcast_to(np.any(high == low, axis=1, keepdims=True), low.shape)
-        moved = _projected(terms, inner, inner, on_cap, grid.cell)
-        strayed = ~on_cap[:, 0] & np.all(moved == inner, axis=1)
-        moved[strayed] = _nearest_root(terms, moved[strayed], low[strayed], high[strayed])
-        points[centre] = moved
-    if len(free) < len(points):
-        slopes, of_edges = np.empty_like(points), slopes
-        slopes[free] = of_edges
-    rest = np.concatenate(again)
-    slopes[rest] = near_linear_gradient(terms, points[rest])[1]
+        again = np.append(again, free[near])
+    slopes[again] = near_linear_gradient(terms, points[again])[1]
     return points, slopes
 
 
@@ -79,24 +66,6 @@ def _on_edges(terms: Terms, start: Array, end: Array, ends: Samples) -> tuple[Ar
     points = start + (end - start) * share[:, None]
     slopes[rest] = near_linear_gradient(terms, points[rest])[1]
     return points, slopes, share
-
-
-def _nearest_root(terms: Terms, points: Array, low: Array, high: Array) -> Array:
-    """A point of the surface near each of points (n, 3) in the cells from low to high, which the surface passes through.
-
-    Looked for between the point and the nearest node, of a lattice of 5 along each side, on the other side of the surface.
-    """
-    steps = np.linspace(0.0, 1.0, 5)
-    shares = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
-    lattice = low[:, None] + (high - low)[:, None] * shares
-    values, here = near_linear(terms, log_ratio(terms, lattice)), near_linear(terms, log_ratio(terms, points))
-    apart = np.where((values > 0) == (here > 0)[:, None], np.inf, np.linalg.norm(lattice - points[:, None], axis=2))
-    nearest = np.argmin(apart, axis=1)
-    rows = np.arange(len(points))
-    other, found = lattice[rows, nearest], np.isfinite(apart[rows, nearest])
-    share = np.zeros(len(points))
-    share[found] = _roots(terms, points[found], other[found], np.column_stack([here, values[rows, nearest]])[found])
-    return points + (other - points) * share[:, None]
 
 
 def _held(grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64]) -> NDArray[np.bool_]:
