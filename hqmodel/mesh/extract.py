@@ -6,6 +6,7 @@ lie on, never by rounding coordinates.
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -20,7 +21,8 @@ from .mesh import Triangles
 AT_NODE = 3
 Samples = NDArray[np.float32]
 Numbers = NDArray[np.int64]
-_BITS = np.uint8(1) << np.arange(8, dtype=np.uint8)
+Indices = NDArray[np.intp]
+_EDGES = np.array(EDGES)
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,43 +52,68 @@ def extract(blocks: Blocks, tile: Blocks, size: int, sample: Callable[[Numbers],
 
     `sample` gives the field at nodes (m, 3), never 0, and -inf beyond a cut. None where there is no surface.
     """
-    shape = (size + 1,) * 3
+    shape, count = (size + 1,) * 3, (size + 1) ** 3
     strides = np.array([shape[1] * shape[2], shape[2], 1])
+    room = _room.of(count)
     first = (blocks - tile) @ strides
-    marked = np.zeros(np.prod(shape), dtype=bool)
-    marked[first[:, None] + _lattice(BLOCK + 1) @ strides] = True
-    nodes = np.flatnonzero(marked)
-    samples = np.empty(marked.shape, dtype=np.float32)
-    samples[nodes] = sample(np.stack(np.unravel_index(nodes, shape)).T + tile)
-    marked[nodes] = False
-    inside = (samples > 0).view(np.uint8)
+    nodes = room.each(first[:, None] + _lattice(BLOCK + 1) @ strides)
+    room.samples[nodes] = sample(np.stack(np.unravel_index(nodes, shape)).T + tile)
     cells = (first[:, None] + _lattice(BLOCK) @ strides).ravel()
-    case = np.zeros(len(cells), dtype=np.uint8)
-    for bit, step in zip(_BITS, CORNERS @ strides, strict=True):
-        case |= inside[cells + step] * bit
+    case = room.cases(nodes, strides)[cells]
     crossed = (case > 0) & (case < 255)
     if not crossed.any():
         return None
-    cells, case = cells[crossed], case[crossed]
-    pinched = np.zeros(marked.shape, dtype=bool)
-    edges, of_cell = _triangulated(case, _joined(case, cells, samples, strides, pinched))
-    lower, along = np.array(EDGES)[edges].T
-    corner = cells[of_cell] + (CORNERS @ strides)[lower]
-    number, of_axis, vertices = np.empty(marked.shape, dtype=np.int32), list[Numbers](), 0
-    faces = np.empty(len(corner), dtype=np.int32)
-    for axis in range(3):
-        here = along == axis
-        marked[corner[here]] = True
-        of_axis.append(np.flatnonzero(marked))
-        marked[of_axis[-1]] = False
-        number[of_axis[-1]] = np.arange(vertices, vertices + len(of_axis[-1]), dtype=np.int32)
-        faces[here] = number[corner[here]]
-        vertices += len(of_axis[-1])
-    near, axes = np.concatenate(of_axis), np.repeat(np.arange(3), [len(of) for of in of_axis])
-    far = near + strides[axes]
+    cells, case, corners = cells[crossed], case[crossed], CORNERS @ strides
+    joined, unclear = _joined(case, cells, room.samples, corners)
+    edges, of_cell = _triangulated(case, joined)
+    edge = (corners[_EDGES[:, 0]] + count * _EDGES[:, 1])[edges] + cells[of_cell]
+    found = room.each(edge)
+    room.number[found] = np.arange(len(found), dtype=np.int32)
+    axis, near = np.divmod(found, count)
+    far = near + strides[axis]
     node = np.stack(np.unravel_index(near, shape)).T + tile
-    ends = np.stack([samples[near], samples[far]]).T
-    return _without_length(Patch(node, axes, ends, pinched[near] & pinched[far], faces.reshape(-1, 3)))
+    ends = np.stack([room.samples[near], room.samples[far]]).T
+    room.marked[unclear] = True
+    pinched = room.marked[near] & room.marked[far]
+    room.marked[unclear] = False
+    return _without_length(Patch(node, axis, ends, pinched, room.number[edge].reshape(-1, 3)))
+
+
+class _Room(threading.local):
+    """Arrays over a tile's nodes, or its edges, one set a thread, used again for every tile."""
+
+    samples: Samples
+    inside: NDArray[np.uint8]
+    marked: NDArray[np.bool_]
+    number: NDArray[np.int32]
+
+    def of(self, count: int) -> _Room:
+        """Itself, with arrays for tiles of so many nodes."""
+        if not hasattr(self, "samples") or len(self.samples) != count:
+            self.samples = np.empty(count, dtype=np.float32)
+            self.inside = np.zeros(count, dtype=np.uint8)
+            self.marked = np.zeros(3 * count, dtype=bool)
+            self.number = np.empty(3 * count, dtype=np.int32)
+        return self
+
+    def each(self, numbers: Indices) -> Indices:
+        """The nodes or edges, each once and in order."""
+        self.marked[numbers] = True
+        found = np.flatnonzero(self.marked)
+        self.marked[found] = False
+        return found
+
+    def cases(self, nodes: Indices, strides: Indices) -> NDArray[np.uint8]:
+        """For every cell, by its first node, which of its corners are inside, as bits; true for cells whose corners are nodes."""
+        self.inside[nodes] = self.samples[nodes] > 0
+        case = self.inside
+        for bits, stride in zip((1, 2, 4), reversed(strides.tolist()), strict=True):
+            case = case[:-stride] | case[stride:] << np.uint8(bits)
+        self.inside[nodes] = 0
+        return case
+
+
+_room = _Room()
 
 
 def _without_length(patch: Patch) -> Patch:
@@ -109,24 +136,19 @@ def _lattice(count: int) -> Numbers:
     return np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
 
 
-def _joined(
-    case: NDArray[np.uint8], cells: Numbers, samples: Samples, strides: Numbers, pinched: NDArray[np.bool_]
-) -> NDArray[np.uint8]:
-    """For each cell the ambiguous faces, as bits, whose inside corners are joined: where the face's saddle is inside.
-
-    Their corners are marked as `pinched`.
-    """
+def _joined(case: NDArray[np.uint8], cells: Indices, samples: Samples, corners: Indices) -> tuple[NDArray[np.uint8], Indices]:
+    """For each cell the ambiguous faces, as bits, whose inside corners are joined: where the face's saddle is inside. Besides,
+    the corners of all ambiguous faces."""
     result = np.zeros(len(cells), dtype=np.uint8)
     unclear = np.flatnonzero(AMBIGUOUS[case])
+    seen = []
     for face, ring in enumerate(FACES):
         rows = unclear[AMBIGUOUS[case[unclear]] >> face & 1 > 0]
-        corners = [cells[rows] + CORNERS[corner] @ strides for corner in ring]
-        a, b, c, d = (samples[corner] for corner in corners)
+        seen.append(cells[rows] + corners[list(ring), None])
+        a, b, c, d = samples[seen[-1]]
         joined = np.where(a > 0, a * c > b * d, b * d > a * c)
         result[rows] |= np.where(joined, 1 << face, 0).astype(np.uint8)
-        for corner in corners:
-            pinched[corner] = True
-    return result
+    return result, np.concatenate(seen, axis=1).ravel()
 
 
 def _triangulated(case: NDArray[np.uint8], joined: NDArray[np.uint8]) -> tuple[Numbers, Numbers]:
