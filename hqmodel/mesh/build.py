@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
+from collections import deque
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -102,11 +103,16 @@ def _must_be_near(where: Region) -> None:
 def _pieces(scene: Scene, terms: Terms, grid: Grid, tell: Progress) -> Iterator[Piece | None]:
     """The tiles' pieces in order, worked out on all cores."""
     jobs = tiles(terms, grid)
+    ahead = 2 * (os.cpu_count() or 1)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
+        under_way = deque[Future[Piece | None]]()
         try:
-            for number, piece in enumerate(pool.map(lambda tile: _piece(scene, terms, grid, tile), jobs)):
-                tell(0.95 * (number + 1) / len(jobs), "Meshing")
-                yield piece
+            for number in range(len(jobs) + ahead):
+                if number < len(jobs):
+                    under_way.append(pool.submit(_piece, scene, terms, grid, jobs[number]))
+                if number >= ahead:  # no further ahead, so that pieces don't pile up
+                    yield under_way.popleft().result()
+                    tell(0.95 * (number - ahead + 1) / len(jobs), "Meshing")
         finally:
             pool.shutdown(wait=True, cancel_futures=True)
 
@@ -124,7 +130,7 @@ def _piece(scene: Scene, terms: Terms, grid: Grid, tile: Blocks) -> Piece | None
     vertices, slopes = place_vertices(local, grid, node, axis, patch.ends)
     off = depths(local, vertices, faces, lengths(slopes))
     off[on_caps(faces, vertices, grid)] = 0
-    shared = np.flatnonzero(np.logical_or.reduce([(node[:, i] % TILE == 0) & (axis != i) for i in range(3)]))
+    shared = np.flatnonzero(np.logical_or.reduce([(node[:, i] % TILE[i] == 0) & (axis != i) for i in range(3)]))
     normals = with_caps(unit(-slopes), vertices, grid, within=axis == AT_NODE)
     return Piece(
         keys=patch.keys(grid)[shared],

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .cubes import AMBIGUOUS, CORNERS, EDGES, FACES, triangles
+from .cubes import AMBIGUOUS, CORNERS, CROSSED, EDGES, FACES, triangles
 from .cull import Blocks
 from .grid import BLOCK, Grid
 from .mesh import Triangles
@@ -23,6 +23,8 @@ Samples = NDArray[np.float32]
 Numbers = NDArray[np.int64]
 Indices = NDArray[np.intp]
 _EDGES = np.array(EDGES)
+# Nodes sampled at once: a few megabytes of coordinates and such.
+_AT_ONCE = 1 << 14
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,17 +49,19 @@ class Patch:
         return ((x * ny + y) * nz + z) * (AT_NODE + 1) + self.axis
 
 
-def extract(blocks: Blocks, tile: Blocks, size: int, sample: Callable[[Numbers], Samples]) -> Patch | None:
+def extract(blocks: Blocks, tile: Blocks, size: tuple[int, int, int], sample: Callable[[Numbers], Samples]) -> Patch | None:
     """The level set 0 of a field, positive inside, in blocks (n, 3) of the tile of `size` cells whose first node is `tile` (3,).
 
     `sample` gives the field at nodes (m, 3), never 0, and -inf beyond a cut. None where there is no surface.
     """
-    shape, count = (size + 1,) * 3, (size + 1) ** 3
-    strides = np.array([shape[1] * shape[2], shape[2], 1])
-    room = _room.of(count)
+    x, y, z = shape = (size[0] + 1, size[1] + 1, size[2] + 1)
+    strides = np.array([y * z, z, 1])
+    room = _room.of(x * y * z)
     first = (blocks - tile) @ strides
     nodes = room.each(first[:, None] + _lattice(BLOCK + 1) @ strides)
-    room.samples[nodes] = sample(np.stack(np.unravel_index(nodes, shape)).T + tile)
+    for start in range(0, len(nodes), _AT_ONCE):
+        some = nodes[start : start + _AT_ONCE]
+        room.samples[some] = sample(np.stack(np.unravel_index(some, shape)).T + tile)
     cells = (first[:, None] + _lattice(BLOCK) @ strides).ravel()
     case = room.cases(nodes, strides)[cells]
     crossed = (case > 0) & (case < 255)
@@ -65,22 +69,34 @@ def extract(blocks: Blocks, tile: Blocks, size: int, sample: Callable[[Numbers],
         return None
     cells, case, corners = cells[crossed], case[crossed], CORNERS @ strides
     joined, unclear = _joined(case, cells, room.samples, corners)
-    edges, of_cell = _triangulated(case, joined)
-    edge = (corners[_EDGES[:, 0]] + count * _EDGES[:, 1])[edges] + cells[of_cell]
-    found = room.each(edge)
-    room.number[found] = np.arange(len(found), dtype=np.int32)
-    axis, near = np.divmod(found, count)
+    near, axis, of_cell = _vertices(room, cells, case, corners)
     far = near + strides[axis]
     node = np.stack(np.unravel_index(near, shape)).T + tile
     ends = np.stack([room.samples[near], room.samples[far]]).T
     room.marked[unclear] = True
     pinched = room.marked[near] & room.marked[far]
     room.marked[unclear] = False
-    return _without_length(Patch(node, axis, ends, pinched, room.number[edge].reshape(-1, 3)))
+    edges, which = _triangulated(case, joined)
+    return _without_length(Patch(node, axis, ends, pinched, of_cell[which, edges].reshape(-1, 3)))
+
+
+def _vertices(
+    room: _Room, cells: Indices, case: NDArray[np.uint8], corners: Indices
+) -> tuple[Indices, NDArray[np.int64], Triangles]:
+    """The crossed edges of cells, each once, by first node and axis, (V,) each, and their numbers by cell and edge, (n, 12)."""
+    of_cell, near, count = np.empty((len(cells), 12), dtype=np.int32), list[Indices](), 0
+    for edges in np.arange(12).reshape(3, 4):
+        nodes = cells[:, None] + corners[_EDGES[edges, 0]]
+        found = room.each(nodes[CROSSED[case][:, edges]])
+        room.number[found] = np.arange(count, count + len(found), dtype=np.int32)
+        of_cell[:, edges] = room.number[nodes]
+        near.append(found)
+        count += len(found)
+    return np.concatenate(near), np.repeat(np.arange(3), [len(found) for found in near]), of_cell
 
 
 class _Room(threading.local):
-    """Arrays over a tile's nodes, or its edges, one set a thread, used again for every tile."""
+    """Arrays over a tile's nodes, one set a thread, used again for every tile: fresh memory is slow to come by."""
 
     samples: Samples
     inside: NDArray[np.uint8]
@@ -92,12 +108,12 @@ class _Room(threading.local):
         if not hasattr(self, "samples") or len(self.samples) != count:
             self.samples = np.empty(count, dtype=np.float32)
             self.inside = np.zeros(count, dtype=np.uint8)
-            self.marked = np.zeros(3 * count, dtype=bool)
-            self.number = np.empty(3 * count, dtype=np.int32)
+            self.marked = np.zeros(count, dtype=bool)
+            self.number = np.zeros(count, dtype=np.int32)
         return self
 
     def each(self, numbers: Indices) -> Indices:
-        """The nodes or edges, each once and in order."""
+        """The nodes, each once and in order."""
         self.marked[numbers] = True
         found = np.flatnonzero(self.marked)
         self.marked[found] = False
@@ -106,9 +122,11 @@ class _Room(threading.local):
     def cases(self, nodes: Indices, strides: Indices) -> NDArray[np.uint8]:
         """For every cell, by its first node, which of its corners are inside, as bits; true for cells whose corners are nodes."""
         self.inside[nodes] = self.samples[nodes] > 0
-        case = self.inside
-        for bits, stride in zip((1, 2, 4), reversed(strides.tolist()), strict=True):
-            case = case[:-stride] | case[stride:] << np.uint8(bits)
+        case, spare = self.inside, self.number.view(np.uint8).reshape(4, -1)  # its numbers are not needed yet
+        for bits, stride, into in zip((1, 2, 4), reversed(strides.tolist()), spare, strict=False):
+            count = len(case) - stride
+            np.left_shift(case[stride:], np.uint8(bits), out=into[:count])
+            case = np.bitwise_or(case[:count], into[:count], out=into[:count])
         self.inside[nodes] = 0
         return case
 

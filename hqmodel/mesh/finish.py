@@ -104,7 +104,7 @@ def _balance(
     Vertices in a mirror plane stay in it, those in a cut where they are.
     """
     furthest = _FURTHEST * float(np.max(np.ptp(vertices, axis=0)))
-    step = np.clip(_SHARE * _QUANTUM * grid.cell * pull[:, 0] / np.maximum(pull[:, 1], 1), -furthest, furthest)
+    step = np.clip(np.float32(_SHARE * _QUANTUM * grid.cell) * pull[:, 0] / np.maximum(pull[:, 1], 1), -furthest, furthest)
     for axis, plane, _ in grid.cuts:
         step[vertices[:, axis] == plane] = 0
     for i in range(3):
@@ -112,7 +112,8 @@ def _balance(
         if i in mirrored:
             way[vertices[:, i] == 0] = 0
         vertices[:, i] += way
-    off -= (step[faces[:, 0]] + step[faces[:, 1]] + step[faces[:, 2]]) / 3
+    for i in range(3):
+        off -= step[faces[:, i]] / 3
 
 
 def _measured(

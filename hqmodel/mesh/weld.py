@@ -31,49 +31,61 @@ class Piece:
 
 
 _OF_VERTICES = ("vertices", "normals", "colors", "pull", "pinched")
-_OF_FACES = ("faces", "off")
 # What adds up over the pieces that share a vertex.
 _SUMS = ("pull", "pinched")
 
 
 class Weld:
-    """A mesh that grows by pieces. They are kept as they come; `take` lays one of their parts out in one array."""
+    """A mesh that grows by pieces, in memory little larger than itself."""
 
     def __init__(self) -> None:
         self._known: dict[int, int] = {}
-        self._vertices = 0
-        self._late: dict[str, list[tuple[Triangles, NDArray[Any]]]] = {name: [] for name in _SUMS}
-        self._parts: dict[str, list[NDArray[Any]]] = {name: [] for name in (*_OF_VERTICES, *_OF_FACES)}
+        self._columns: dict[str, _Column] = {}
 
     def __bool__(self) -> bool:
-        return self._vertices > 0
+        return bool(self._columns)
 
     def add(self, piece: Piece) -> None:
         """Join a piece on: vertices that an earlier one has already are taken from there."""
+        before = len(self._columns["vertices"].rows) if self else 0
         new = np.ones(len(piece.vertices), dtype=bool)
         earlier = np.array([self._known.get(key, -1) for key in piece.keys.tolist()], dtype=np.int32)
         old = earlier >= 0
         new[piece.shared[old]] = False
-        number = np.cumsum(new, dtype=np.int32) + np.int32(self._vertices - 1)
+        number = np.cumsum(new, dtype=np.int32) + np.int32(before - 1)
         number[piece.shared[old]] = earlier[old]
         self._known.update(zip(piece.keys[~old].tolist(), number[piece.shared[~old]].tolist(), strict=True))
-        self._vertices += int(np.count_nonzero(new))
-        for name, late in self._late.items():
-            late.append((earlier[old], getattr(piece, name)[piece.shared[old]]))
+        for name in _SUMS if before else ():
+            self._columns[name].rows[earlier[old]] += getattr(piece, name)[piece.shared[old]]
         for name in _OF_VERTICES:
-            self._parts[name].append(getattr(piece, name)[new])
-        self._parts["faces"].append(number[piece.faces])
-        self._parts["off"].append(piece.off)
+            self._extend(name, getattr(piece, name)[new])
+        self._extend("faces", number[piece.faces])
+        self._extend("off", piece.off)
+
+    def _extend(self, name: str, rows: NDArray[Any]) -> None:
+        self._columns.setdefault(name, _Column(rows)).extend(rows)
 
     def take(self, name: str) -> NDArray[Any]:
-        """A part of the pieces, all in one; they give it away, so that there are never two of it."""
-        parts = self._parts.pop(name)
-        whole = np.empty((sum(len(part) for part in parts), *parts[0].shape[1:]), dtype=parts[0].dtype)
-        end = len(whole)
-        while parts:
-            part = parts.pop()
-            whole[end - len(part) : end] = part
-            end -= len(part)
-        for rows, values in self._late.get(name, ()):
-            whole[rows] += values
-        return whole
+        """A part of the pieces, all in one, which is given away."""
+        return self._columns.pop(name).rows
+
+
+class _Column:
+    """Rows like the ones given that grow in place. Room is made twice as large; of it only what is filled takes memory."""
+
+    def __init__(self, like: NDArray[Any]) -> None:
+        self._store: NDArray[Any] = np.empty((0, *like.shape[1:]), dtype=like.dtype)
+        self._count = 0
+
+    @property
+    def rows(self) -> NDArray[Any]:
+        return self._store[: self._count]
+
+    def extend(self, rows: NDArray[Any]) -> None:
+        needed = self._count + len(rows)
+        if needed > len(self._store):
+            store = np.empty((2 * needed, *rows.shape[1:]), dtype=rows.dtype)
+            store[: self._count] = self.rows
+            self._store = store
+        self._store[self._count : needed] = rows
+        self._count = needed

@@ -145,13 +145,13 @@ def test_the_same_scene_gives_the_same_bytes() -> None:
 def test_tiles_leave_no_trace(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """The same triangles at any tile size, as a set, to the last bit."""
     meshes = []
-    for tile in (16, 64, 512):
+    for tile in ((16, 16, 16), (64, 128, 128), (512, 512, 512), (8, 64, 32)):
         monkeypatch.setattr(culling, "TILE", tile)
         monkeypatch.setattr("hqmodel.mesh.build.TILE", tile)
         meshes.append(polygonize(case(name).scene, 70))
     corners = [{face.tobytes() for face in mesh.vertices[mesh.faces]} for mesh in meshes]
     assert len(corners[0]) == len(meshes[0].faces)
-    assert corners[0] == corners[1] == corners[2]
+    assert corners[0] == corners[1] == corners[2] == corners[3]
 
 
 def test_nothing_is_missed_that_a_dense_look_finds(monkeypatch: pytest.MonkeyPatch) -> None:
