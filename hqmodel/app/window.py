@@ -161,7 +161,9 @@ class Window:
         better = self._canvas.unfinished and self.session.refining
         if self.thumbnails.waiting and not better and self._spare():
             self.guard.run("Thumbnails", self._thumbnail)
-        if better or self.thumbnails.waiting or self.session.export or self._choosing:
+        # ImGui spreads keys pressed in quick succession over several frames, which a window at rest would not draw
+        pressed = len(imgui.get_current_context().input_events_queue) > 0
+        if better or pressed or self.thumbnails.waiting or self.session.export or self._choosing:
             hello_imgui.request_refresh()
 
     def _dialog(self) -> Iterable[Intent]:

@@ -176,7 +176,7 @@ OSERRORS = [
 def test_whatever_happens_ends_in_one_line(
     hqmodel: Command, monkeypatch: pytest.MonkeyPatch, error: BaseException, status: int, message: str
 ) -> None:
-    def fail(*_: object) -> None:
+    def fail(*_: object, **__: object) -> None:
         raise error
 
     monkeypatch.setattr("hqmodel.mesh.polygonize", fail)
