@@ -17,7 +17,7 @@ from .powers import CEILING, group_powers, over_runs, power, scaled, strip_funct
 from .terms import HUGE, Array, Indices, Terms
 
 # Strips times points worked on at once: what stays in a processor's cache.
-_CHUNK = 1 << 16
+_CHUNK = 1 << 17
 # exp of this is just inside float64.
 _TOP = 709.0
 _STEEP = 1e140

@@ -13,7 +13,7 @@ Blocks = NDArray[np.int64]
 Size = int | tuple[int, int, int]
 
 # Cells along the sides of a tile, what one job samples with the terms that matter there: powers of 2, times that of a block.
-TILE = (64, 128, 128)
+TILE = (128, 128, 128)
 
 
 def tiles(terms: Terms, grid: Grid) -> Blocks:

@@ -24,7 +24,7 @@ Numbers = NDArray[np.int64]
 Indices = NDArray[np.intp]
 _EDGES = np.array(EDGES)
 # Nodes sampled at once: a few megabytes of coordinates and such.
-_AT_ONCE = 1 << 14
+_AT_ONCE = 1 << 17
 
 
 @dataclass(frozen=True, eq=False)
