@@ -14,7 +14,7 @@ import pytest
 import hqmodel
 
 ROOT = Path(__file__).parents[1]
-HEAVY = ("moderngl", "glfw", "imgui_bundle", "trimesh", "skimage", "scipy")
+HEAVY = ("moderngl", "glfw", "imgui_bundle", "trimesh", "scipy")
 PUBLIC = ["Scene", "Shape", "Strip", "load", "polygonize", "render", "save"]
 
 
