@@ -7,6 +7,7 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -25,10 +26,9 @@ from .cull import TILE, Blocks, blocks_of, tiles
 from .extract import AT_NODE, Numbers, Samples, extract
 from .finish import finished, pulls
 from .grid import Grid, make_grid
-from .measure import depths
-from .mesh import Mesh, MeshError, lengths, unit
+from .mesh import Mesh, MeshError
 from .refine import place_vertices
-from .shade import colored, on_caps, with_caps
+from .shade import clothed
 from .weld import Piece, Weld
 
 Progress = Callable[[float, str], None]
@@ -74,8 +74,9 @@ def polygonize(
             weld.add(piece)
     if not weld:
         raise MeshError("no surface: the field does not reach its level anywhere at this resolution")
-    tell(0.95, "Joining" if target_faces is None else "Reducing")
-    mesh = finished(scene, terms, grid, weld, mirrored, target_faces)
+    still = partial(tell, 0.95, "Joining" if target_faces is None else "Reducing")
+    still()
+    mesh = finished(scene, terms, grid, weld, mirrored, target_faces, still)
     tell(1.0, "Done")
     return mesh if shading else replace(mesh, normals=None, colors=None)
 
@@ -128,16 +129,14 @@ def _piece(scene: Scene, terms: Terms, grid: Grid, tile: Blocks) -> Piece | None
         return None
     node, axis, faces = patch.node, patch.axis, patch.faces
     vertices, slopes = place_vertices(local, grid, node, axis, patch.ends)
-    off = depths(local, vertices, faces, lengths(slopes))
-    off[on_caps(faces, vertices, grid)] = 0
-    shared = np.flatnonzero(np.logical_or.reduce([(node[:, i] % TILE[i] == 0) & (axis != i) for i in range(3)]))
-    normals = with_caps(unit(-slopes), vertices, grid, within=axis == AT_NODE)
+    normals, colors, off = clothed(scene, local, grid, vertices, slopes, faces, within=axis == AT_NODE)
+    shared = np.flatnonzero(np.logical_or.reduce([(node[:, i] % TILE == 0) & (axis != i) for i in range(3)]))
     return Piece(
         keys=patch.keys(grid)[shared],
         shared=shared,
         vertices=vertices,
         normals=normals,
-        colors=colored(scene, local, vertices),
+        colors=colors,
         pull=pulls(faces, off, normals, grid.cell),
         pinched=patch.pinched,
         faces=faces,

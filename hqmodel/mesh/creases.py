@@ -96,9 +96,8 @@ class _Part:
 
     def split(self, chosen: Callable[[Indices], NDArray[np.bool_]]) -> None:
         """Split the chosen ones of the edges (n, 2), lower vertex first, that have a crease between their ends."""
-        count, following = len(self.points), np.roll(self.faces, -1, axis=1)
-        keys = np.unique(np.minimum(self.faces, following) * count + np.maximum(self.faces, following))
-        edges = np.stack(np.divmod(keys, count), axis=1)
+        count = len(self.points)
+        edges = np.stack(np.divmod(np.unique(_sides(self.faces, count)), count), axis=1)
         edges, middles = self._creases(edges[chosen(edges)])
         while len(edges):
             points = np.concatenate([self.points, middles])
@@ -139,6 +138,12 @@ class _Part:
         return edges[rows[good]], points[good]
 
 
+def _sides(faces: Indices, count: int) -> Indices:
+    """One number for the edge of each side of faces among so many vertices, (F, 3)."""
+    following = np.roll(faces, -1, axis=1)
+    return np.minimum(faces, following) * count + np.maximum(faces, following)
+
+
 def _in_order(points: Array, edges: Indices) -> tuple[Indices, Indices]:
     """The ends (n,) of edges (n, 2) in the order of their coordinates, so that nothing depends on how vertices are numbered."""
     x, y, z = (points[edges[:, 1]] - points[edges[:, 0]]).T
@@ -170,8 +175,7 @@ def _pieces(faces: Indices, edges: Indices, points: Array) -> tuple[Indices, Ind
     `faces` that each is part of, (n,), and for each of `faces` the edges of its sides, or -1, (F, 3)."""
     count = len(points)
     key = edges[:, 0] * count + edges[:, 1]
-    following = np.roll(faces, -1, axis=1)
-    wanted = np.minimum(faces, following) * count + np.maximum(faces, following)
+    wanted = _sides(faces, count)
     at = np.minimum(np.searchsorted(key, wanted), len(key) - 1)
     uses = np.where(key[at] == wanted, at, -1)
     number = np.count_nonzero(uses >= 0, axis=1)

@@ -10,46 +10,35 @@ from hqmodel.field import Terms, box_bounds
 from .grid import BLOCK, Grid
 
 Blocks = NDArray[np.int64]
-Size = int | tuple[int, int, int]
 
-# Cells along the sides of a tile, what one job samples with the terms that matter there: powers of 2, times that of a block.
-TILE = (128, 128, 128)
+# Cells along a side of a tile: what one job samples with the terms that matter there.
+TILE = 128
 
 
 def tiles(terms: Terms, grid: Grid) -> Blocks:
     """First nodes (n, 3) of the tiles that the surface may pass through, in a fixed order."""
-    most = size = max(TILE)
+    size = TILE
     while size < max(len(nodes) for nodes in grid.nodes):
         size *= 2
-    cubes = _descend(terms, grid, np.zeros((1, 3), dtype=np.int64), size, most)
-    return _ordered(_crossed(terms, grid, _parts(grid, cubes, most, TILE), TILE))
+    return _descend(terms, grid, np.zeros((1, 3), dtype=np.int64), size, TILE)
 
 
 def blocks_of(terms: Terms, grid: Grid, tile: Blocks) -> Blocks:
     """First nodes (n, 3) of the blocks of one tile that the surface may pass through."""
-    least = min(TILE)
-    return _ordered(_descend(terms, grid, _parts(grid, tile.reshape(1, 3), TILE, least), least, BLOCK))
+    return _descend(terms, grid, tile.reshape(1, 3), TILE, BLOCK)
 
 
 def _descend(terms: Terms, grid: Grid, cubes: Blocks, size: int, until: int) -> Blocks:
+    ends = np.array([len(nodes) - 1 for nodes in grid.nodes])
     cubes = _crossed(terms, grid, cubes, size)
     while size > until:
         size //= 2
-        cubes = _crossed(terms, grid, _parts(grid, cubes, 2 * size, size), size)
-    return cubes
+        steps = np.stack(np.meshgrid([0, size], [0, size], [0, size], indexing="ij"), axis=-1).reshape(-1, 3)
+        cubes = (cubes[:, None] + steps).reshape(-1, 3)
+        cubes = _crossed(terms, grid, cubes[np.all(cubes < ends, axis=1)], size)
+    return cubes[np.lexsort(cubes.T[::-1])]
 
 
-def _parts(grid: Grid, boxes: Blocks, size: Size, part: Size) -> Blocks:
-    """First nodes of the boxes of `part` cells that make up boxes of `size` cells, those beyond the grid's end left out."""
-    steps = [np.arange(0, whole, piece) for whole, piece in zip(np.broadcast_to(size, 3), np.broadcast_to(part, 3), strict=True)]
-    parts = (boxes[:, None] + np.stack(np.meshgrid(*steps, indexing="ij"), axis=-1).reshape(-1, 3)).reshape(-1, 3)
-    return parts[np.all(parts < [len(nodes) - 1 for nodes in grid.nodes], axis=1)]
-
-
-def _crossed(terms: Terms, grid: Grid, boxes: Blocks, size: Size) -> Blocks:
-    lower, upper = box_bounds(terms, *grid.corners(boxes, size))
-    return boxes[(upper > 0) & ((lower <= 0) | grid.touches_outside(boxes, size))]
-
-
-def _ordered(boxes: Blocks) -> Blocks:
-    return boxes[np.lexsort(boxes.T[::-1])]
+def _crossed(terms: Terms, grid: Grid, cubes: Blocks, size: int) -> Blocks:
+    lower, upper = box_bounds(terms, *grid.corners(cubes, size))
+    return cubes[(upper > 0) & ((lower <= 0) | grid.touches_outside(cubes, size))]

@@ -23,8 +23,6 @@ Samples = NDArray[np.float32]
 Numbers = NDArray[np.int64]
 Indices = NDArray[np.intp]
 _EDGES = np.array(EDGES)
-# Nodes sampled at once: a few megabytes of coordinates and such.
-_AT_ONCE = 1 << 17
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,19 +47,17 @@ class Patch:
         return ((x * ny + y) * nz + z) * (AT_NODE + 1) + self.axis
 
 
-def extract(blocks: Blocks, tile: Blocks, size: tuple[int, int, int], sample: Callable[[Numbers], Samples]) -> Patch | None:
+def extract(blocks: Blocks, tile: Blocks, size: int, sample: Callable[[Numbers], Samples]) -> Patch | None:
     """The level set 0 of a field, positive inside, in blocks (n, 3) of the tile of `size` cells whose first node is `tile` (3,).
 
     `sample` gives the field at nodes (m, 3), never 0, and -inf beyond a cut. None where there is no surface.
     """
-    x, y, z = shape = (size[0] + 1, size[1] + 1, size[2] + 1)
-    strides = np.array([y * z, z, 1])
-    room = _room.of(x * y * z)
+    shape = (size + 1,) * 3
+    strides = np.array([shape[1] * shape[2], shape[2], 1])
+    room = _room.of((size + 1) ** 3)
     first = (blocks - tile) @ strides
     nodes = room.each(first[:, None] + _lattice(BLOCK + 1) @ strides)
-    for start in range(0, len(nodes), _AT_ONCE):
-        some = nodes[start : start + _AT_ONCE]
-        room.samples[some] = sample(np.stack(np.unravel_index(some, shape)).T + tile)
+    room.samples[nodes] = sample(np.stack(np.unravel_index(nodes, shape)).T + tile)
     cells = (first[:, None] + _lattice(BLOCK) @ strides).ravel()
     case = room.cases(nodes, strides)[cells]
     crossed = (case > 0) & (case < 255)

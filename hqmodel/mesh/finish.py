@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import partial
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 from hqmodel.field import Terms, near_linear_gradient
 from hqmodel.model import Scene
 
-from .creases import creased
+from .creases import Plane, creased
 from .decimate import simplified
 from .grid import Grid
 from .manifold import parted
 from .measure import depths, largest_distance
-from .mesh import Array, Mesh, Triangles, alike, lengths, reflected, unit
+from .mesh import Array, Mesh, Triangles, alike, lengths, reflected
 from .refine import to_surface
-from .shade import colored, on_caps, with_caps
+from .shade import clothed, colored, on_caps, with_caps
 from .weld import Weld
 
 # Vertices on the surface leave the triangles between them on one side of it. Moved out by this share of how far their faces'
@@ -44,9 +44,18 @@ def pulls(faces: Triangles, off: NDArray[np.float32], normals: NDArray[np.float3
 
 
 def finished(
-    scene: Scene, terms: Terms, grid: Grid, weld: Weld, mirrored: tuple[int, ...], target_faces: int | None = None
+    scene: Scene,
+    terms: Terms,
+    grid: Grid,
+    weld: Weld,
+    mirrored: tuple[int, ...],
+    target_faces: int | None,
+    still: Callable[[], None],
 ) -> Mesh:
-    """The whole mesh from its welded pieces: the part on one side of the mirror planes, and its images."""
+    """The whole mesh from its welded pieces: the part on one side of the mirror planes, and its images.
+
+    `still` is called again and again while the mesh is reduced; whatever it raises ends the work.
+    """
     vertices, faces, off, normals = (weld.take(name) for name in ("vertices", "faces", "off", "normals"))
     _balance(vertices, normals, faces, off, weld.take("pull"), grid, mirrored)
     pinched, colors = weld.take("pinched"), weld.take("colors")
@@ -58,13 +67,13 @@ def finished(
         colors = np.concatenate([colors, colored(scene, terms, split.points)])
         pinched = np.append(pinched, np.zeros(len(split.points), dtype=bool))
         off = _measured(terms, grid, vertices, faces, off[split.origin], split.origin)
-    share = None if target_faces is None else target_faces // 2 ** len(mirrored)
-    if share is not None and share < len(faces):
-        held = np.zeros(vertices.shape, dtype=bool)
-        for axis, plane in planes:
-            held[:, axis] |= vertices[:, axis] == plane
-        vertices, faces = simplified(vertices, faces, share, held, mirrored, partial(_placed, terms, grid.cell))
-        normals, colors, off = _clothed(scene, terms, grid, vertices, faces)
+    share = len(faces) if target_faces is None else target_faces // 2 ** len(mirrored)
+    if share < len(faces):
+        vertices, faces = _fewer(terms, grid, vertices, faces, mirrored, planes, share, still)
+        within = np.ones(len(vertices), dtype=bool)
+        within[faces[~on_caps(faces, vertices, grid)]] = False
+        slopes = near_linear_gradient(terms, vertices)[1]
+        normals, colors, off = clothed(scene, terms, grid, vertices, slopes, faces, within)
         pinched = np.full(len(vertices), pinched.any())
     mesh = Mesh(vertices, faces, normals, colors, largest_distance(terms, vertices, faces, off, grid.cell))
     for axis in mirrored:
@@ -73,21 +82,26 @@ def finished(
     return parted(mesh, pinched)
 
 
-def _placed(terms: Terms, cell: float, points: Array, held: NDArray[np.bool_]) -> Array:
-    return to_surface(terms, points, cell, 5, held)[0]
+def _fewer(
+    terms: Terms,
+    grid: Grid,
+    vertices: Array,
+    faces: Triangles,
+    mirrored: tuple[int, ...],
+    planes: list[Plane],
+    target: int,
+    still: Callable[[], None],
+) -> tuple[Array, Triangles]:
+    """Vertices and faces of the part with so many faces, what lies in the planes kept in them."""
+    held = np.zeros(vertices.shape, dtype=bool)
+    for axis, plane in planes:
+        held[:, axis] |= vertices[:, axis] == plane
 
+    def place(points: Array, held: NDArray[np.bool_]) -> Array:
+        still()
+        return to_surface(terms, points, grid.cell, 5, held)[0]
 
-def _clothed(
-    scene: Scene, terms: Terms, grid: Grid, vertices: Array, faces: Triangles
-) -> tuple[NDArray[np.float32], NDArray[np.uint8], NDArray[np.float32]]:
-    """Normals (V, 3), colours (V, 3), and how far faces' middles lie below the surface, (F,), of a mesh that has none."""
-    slopes = near_linear_gradient(terms, vertices)[1]
-    caps = on_caps(faces, vertices, grid)
-    within = np.ones(len(vertices), dtype=bool)
-    within[faces[~caps]] = False
-    off = depths(terms, vertices, faces, lengths(slopes))
-    off[caps] = 0
-    return with_caps(unit(-slopes), vertices, grid, within), colored(scene, terms, vertices), off
+    return simplified(vertices, faces, target, held, mirrored, place)
 
 
 def _balance(

@@ -46,22 +46,21 @@ class Grid:
                 planes.append((axis, float(nodes[-1]), 1.0))
         return planes
 
-    def corners(self, boxes: NDArray[np.int64], size: int | tuple[int, int, int]) -> tuple[Array, Array]:
-        """Corners (n, 3) of boxes of `size` cells, cut off at the grid's end, whose first nodes are `boxes` (n, 3)."""
-        return self.points(boxes), self.points(boxes + size)
+    def corners(self, blocks: NDArray[np.int64], size: int) -> tuple[Array, Array]:
+        """Corners (n, 3) of cubes of `size` cells, cut off at the grid's end, whose first nodes are `blocks` (n, 3)."""
+        return self.points(blocks), self.points(blocks + size)
 
     def points(self, node: NDArray[np.int64]) -> Array:
         """World positions (n, 3) of nodes numbered (n, 3), those past the end at it."""
         return np.stack([nodes[np.minimum(node[:, i], len(nodes) - 1)] for i, nodes in enumerate(self.nodes)]).T
 
-    def touches_outside(self, boxes: NDArray[np.int64], size: int | tuple[int, int, int]) -> NDArray[np.bool_]:
-        """Whether boxes of cells hold nodes beyond a cut, (n,)."""
-        touching = np.zeros(len(boxes), dtype=bool)
-        ends = boxes + size
+    def touches_outside(self, blocks: NDArray[np.int64], size: int) -> NDArray[np.bool_]:
+        """Whether cubes of cells hold nodes beyond a cut, (n,)."""
+        touching = np.zeros(len(blocks), dtype=bool)
         for i, outside in enumerate(self.outside):
             count = np.concatenate([[0], np.cumsum(outside)])
-            last = np.minimum(ends[:, i], len(outside) - 1)
-            touching |= count[last + 1] > count[boxes[:, i]]
+            last = np.minimum(blocks[:, i] + size, len(outside) - 1)
+            touching |= count[last + 1] > count[blocks[:, i]]
         return touching
 
 

@@ -1,4 +1,4 @@
-"""What a vertex carries besides its place: its normal, which at a cut leans towards the cap, and its colour."""
+"""What a mesh carries besides its places: normals, which at a cut lean towards the cap, colours, and faces' distances."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from hqmodel.field import Terms, mixed_colors
 from hqmodel.model import Scene
 
 from .grid import Grid
-from .mesh import Array, Triangles, unit
+from .measure import depths
+from .mesh import Array, Triangles, lengths, unit
 
 
 def with_caps(normals: Array, vertices: Array, grid: Grid, within: NDArray[np.bool_] | None = None) -> NDArray[np.float32]:
@@ -25,6 +26,18 @@ def with_caps(normals: Array, vertices: Array, grid: Grid, within: NDArray[np.bo
 def colored(scene: Scene, terms: Terms, vertices: Array) -> NDArray[np.uint8]:
     """sRGB colours (V, 3), 0 to 255."""
     return np.rint(mixed_colors(scene, terms, vertices) * 255).astype(np.uint8)
+
+
+def clothed(
+    scene: Scene, terms: Terms, grid: Grid, vertices: Array, slopes: Array, faces: Triangles, within: NDArray[np.bool_]
+) -> tuple[NDArray[np.float32], NDArray[np.uint8], NDArray[np.float32]]:
+    """Normals (V, 3), colours (V, 3), and how far faces' middles lie below the surface, (F,), on caps 0.
+
+    `slopes` (V, 3) are the near-linear field's gradients; `within` (V,) tells the vertices within a cap.
+    """
+    off = depths(terms, vertices, faces, lengths(slopes))
+    off[on_caps(faces, vertices, grid)] = 0
+    return with_caps(unit(-slopes), vertices, grid, within), colored(scene, terms, vertices), off
 
 
 def on_caps(faces: Triangles, vertices: Array, grid: Grid) -> NDArray[np.bool_]:
