@@ -135,8 +135,10 @@ def _far_box(terms: Terms) -> Array:
 
 def _within_sight(terms: Terms, hull: Array) -> Array:
     """The part of an endless hull that is shown."""
+    low, high = hull
     near = 2.5 * _scale(terms)
-    return np.stack([np.maximum(hull[0], -near), np.minimum(hull[1], near)])
+    shift = np.where(low >= near, low + near, np.where(high <= -near, high - near, 0.0))  # a body that begins further out
+    return np.stack([np.maximum(low, shift - near), np.minimum(high, shift + near)])
 
 
 def _tightened(terms: Terms, box: Array, flat: bool, rounds: int = 60) -> Array | None:

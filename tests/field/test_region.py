@@ -106,3 +106,15 @@ def test_no_body(scene: Scene) -> None:
 def test_all_space_has_no_end() -> None:
     everywhere = strips((X, 2.0, 1), (Y, 2.0, 1), (Z, 2.0, 1)).changed(level=-1.0)
     assert not region(everywhere).bounded
+
+
+def test_of_an_endless_body_far_out_a_box_in_order_is_shown() -> None:
+    tilted = (Strip(normal=Z, sign=-1), Strip(normal=(-1e6, 1.0, 0.0), gamma=2.5))
+    far = Strip(normal=(101205.0, 1.0, 0.0), offset=-1e6, gamma=3.0)
+    for scene in (
+        Scene(shapes=(Shape(constant=0.0, strips=(*tilted, far)),)),
+        Scene(shapes=(Shape(strips=(Strip(normal=X, offset=-100.0), Strip(normal=Y))),)),
+    ):
+        found = region(scene)
+        assert not found.bounded
+        assert np.all(found.low < found.high)
