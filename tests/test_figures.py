@@ -276,17 +276,28 @@ def test_figure_13_is_an_icosidodecahedron_a_sphere_and_a_dodecahedron() -> None
 
 def test_figure_15_is_a_head_of_five_strips() -> None:
     (head,) = figure(15).shapes
-    block, others = np.array([s.normal for s in head.strips[:3]]), np.array([s.normal for s in head.strips[3:]])
-    np.testing.assert_array_equal(block, np.eye(3))
-    assert others.shape == (2, 3)
-    assert not np.any(others[:, 0])  # left and right are alike
-    points = solid(figure(15)).vertices
-    chin, crown = points[np.argmin(points[:, 2])], points[np.argmax(points[:, 2])]
-    assert chin[1] < crown[1]  # it looks along -y
-    low = points[:, 2] < chin[2] + 0.15 * (crown[2] - chin[2])
-    assert np.ptp(points[low, 0]) < 0.75 * np.ptp(points[:, 0])
-    assert points[np.argmax(points[:, 1]), 2] > (chin[2] + crown[2]) / 2  # the nape recedes below the back of the skull
+    normals = np.array([strip.normal for strip in head.strips])
+    np.testing.assert_array_equal(normals[:3], np.eye(3))
+    assert len(normals) == 5
+    assert not np.any(normals[3:, 0])  # left and right are alike
     assert [get(stage, "view.azimuth") for stage in stages(figure(15))] == [0, 30, 90]
+
+
+def test_figure_15_has_a_chin_a_throat_and_a_nape() -> None:
+    """It looks along -y: depths are from the foremost to the hindmost point of the profile at a height, x = 0."""
+    y = np.linspace(-1.2, 1.2, 481)
+
+    def depth(z: float) -> tuple[float, float]:
+        inside = y[at(figure(15), np.column_stack([np.zeros_like(y), y, np.full_like(y, z)])) > 0]
+        return float(inside[0]), float(inside[-1])
+
+    (face, skull), (chin, _), (throat, nape) = depth(0.0), depth(-0.9), depth(-1.2)
+    assert chin < throat - 0.2
+    assert nape < skull - 0.3
+    assert face < chin
+    points = solid(figure(15)).vertices
+    neck = points[points[:, 2] < -1.2]
+    assert np.ptp(neck[:, 0]) < 0.6 * np.ptp(points[:, 0])
 
 
 @pytest.mark.parametrize("number", [16, 17, 18])
