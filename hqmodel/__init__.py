@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .files import load, save
+    from .fit import fit
     from .gpu import render
     from .mesh import polygonize
     from .model import Scene, Shape, Strip
 
 __version__ = "0.1.0"
 
-__all__ = ["Scene", "Shape", "Strip", "load", "polygonize", "render", "save"]
+__all__ = ["Scene", "Shape", "Strip", "fit", "load", "polygonize", "render", "save"]
 
 _HOMES = {
     "load": "files",
@@ -24,6 +25,7 @@ _HOMES = {
     "Scene": "model",
     "Shape": "model",
     "Strip": "model",
+    "fit": "fit",
     "polygonize": "mesh",
     "render": "gpu",
 }

@@ -15,7 +15,7 @@ import hqmodel
 
 ROOT = Path(__file__).parents[1]
 HEAVY = ("moderngl", "glfw", "imgui_bundle", "trimesh", "scipy")
-PUBLIC = ["Scene", "Shape", "Strip", "load", "polygonize", "render", "save"]
+PUBLIC = ["Scene", "Shape", "Strip", "fit", "load", "polygonize", "render", "save"]
 
 
 def python(*arguments: str, **options: Any) -> str:

@@ -1,0 +1,65 @@
+"""Clouds with a known truth to fit: points of a scene's surface, clean, noisy, among outliers, or of one side only."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hqmodel.field import Terms, first_hits, near_linear_gradient, region
+from hqmodel.model import Scene
+
+Array = NDArray[np.float64]
+KINDS = ("clean", "noise", "outliers", "one side")
+# Noise's deviation as a share of the diagonal, and the share of outliers, which lie anywhere in a box this much larger.
+NOISE, OUTLIERS, ROOM = 0.01, 0.2, 0.1
+# Median radial errors, as shares of the diagonal, that a fit is to stay under.
+GOALS = {"clean": 0.001, "noise": 0.003, "outliers": 0.003, "one side": 0.005}
+
+
+def true_points(scene: Scene, count: int, rng: np.random.Generator) -> Array:
+    """Points (count, 3) of the surface, on convex bodies uniform by area: where random lines first meet it."""
+    terms = Terms.of(scene)
+    where = region(scene, terms)
+    radius = float(np.linalg.norm(where.size)) / 2
+    found = np.empty((0, 3))
+    while len(found) < count:
+        along = _unit(rng.normal(size=(count, 3)))
+        across = _unit(np.cross(along, rng.normal(size=(count, 3))))
+        origins = where.centre - 2 * radius * along + radius * np.sqrt(rng.uniform(size=(count, 1))) * across
+        distance = first_hits(terms, where, origins, along)
+        found = np.concatenate([found, (origins + distance[:, None] * along)[np.isfinite(distance)]])
+    return found[:count]
+
+
+def cloud(scene: Scene, kind: str, count: int, seed: int) -> Array:
+    """A cloud (count, 3) of one of the `KINDS`."""
+    rng = np.random.default_rng(seed)
+    points = true_points(scene, 4 * count if kind == "one side" else count, rng)
+    low, high = points.min(axis=0), points.max(axis=0)
+    if kind == "noise":
+        points = points + rng.normal(scale=NOISE * np.linalg.norm(high - low), size=points.shape)
+    elif kind == "outliers":
+        strays, room = round(OUTLIERS * count), ROOM * (high - low)
+        points[:strays] = rng.uniform(low - room, high + room, size=(strays, 3))
+    elif kind == "one side":
+        towards = _unit(rng.normal(size=(1, 3)))[0]
+        points = points[near_linear_gradient(Terms.of(scene), points)[1] @ towards < 0][:count]
+    return points
+
+
+def radial_errors(fitted: Scene, truth: Scene, count: int = 2000) -> Array:
+    """How far (count,) the fitted surface is from points of the true one, along rays to its middle, as shares of its diagonal.
+
+    Infinite where a ray misses.
+    """
+    points = true_points(truth, count, np.random.default_rng(count))
+    low, high = points.min(axis=0), points.max(axis=0)
+    middle = (low + high) / 2
+    terms = Terms.of(fitted)
+    distance = first_hits(terms, region(fitted, terms), middle + 4 * (points - middle), middle - points)
+    away = np.abs(distance - 3 * np.linalg.norm(points - middle, axis=1)) / np.linalg.norm(high - low)
+    return np.where(np.isfinite(away), away, np.inf)
+
+
+def _unit(vectors: Array) -> Array:
+    return np.asarray(vectors / np.linalg.norm(vectors, axis=1, keepdims=True))

@@ -1,0 +1,76 @@
+"""The distances that fits are made by: what they are of known bodies, and their derivatives."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hqmodel.field import Terms, log_ratio
+from hqmodel.fit.bodies import Bodies
+from hqmodel.fit.cloud import Frame
+from hqmodel.fit.distance import FARTHEST, Measured, distances, normals
+from hqmodel.fit.scene import scene_of
+
+AXES = np.eye(3)
+
+
+def lone(half: float, gamma: float) -> Bodies:
+    return Bodies.lone(AXES / half, np.zeros(3), np.full(3, gamma))
+
+
+def blend(mirrored: bool) -> Bodies:
+    """Two bodies that add and one that carves, strips askew."""
+    rng = np.random.default_rng(3)
+    mirror = np.array([False, mirrored, mirrored])
+    owner, signs = np.repeat([0, 1, 2], 3), np.array([1.0, 1.0, -1.0])
+    normal, offset, gamma = rng.normal(size=(9, 3)) * 2, rng.normal(size=9) * 0.2, rng.uniform(1.2, 8, 9)
+    return Bodies(normal, offset, gamma, owner, np.array([2.0, 3.0, 2.5]), signs, mirror)
+
+
+def on_surface(bodies: Bodies, count: int = 2000) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+    points = np.random.default_rng(0).normal(size=(count, 3)) * 0.3
+    for _ in range(60):
+        points = points - np.clip(distances(bodies, points), -0.1, 0.1)[:, None] * normals(bodies, points)
+    return points[np.abs(distances(bodies, points)) < 1e-9]
+
+
+def test_a_ball_is_as_far_as_it_is() -> None:
+    points = np.random.default_rng(1).normal(size=(500, 3))
+    away = np.linalg.norm(points, axis=1) - 0.4
+    assert np.allclose(distances(lone(0.4, 2.0), points), np.clip(away, -FARTHEST, FARTHEST), atol=1e-9)
+
+
+def test_a_sharp_box_is_as_far_beyond_its_edges_as_they_are() -> None:
+    points = np.array([(0.4, 0.4, 0.0), (0.4, 0.0, 0.0), (0.1, 0.25, 0.0), (0.0, 0.0, 0.31)])
+    expected = [0.1 * 2**0.5, 0.1, -0.05, 0.01]
+    assert np.allclose(distances(lone(0.3, 200.0), points), expected, atol=5e-3)
+
+
+@pytest.mark.parametrize("bodies", [lone(0.3, 3.0), blend(mirrored=False), blend(mirrored=True)])
+def test_the_derivatives_are_those_of_the_distance(bodies: Bodies) -> None:
+    points = on_surface(bodies)
+    assert len(points) > 1000
+    rows = Measured(bodies, points).rows()
+    assert len(rows) == bodies.size
+    for number, row in enumerate(rows):
+        step = np.zeros(bodies.size)
+        step[number] = 1e-6
+        ahead, behind = distances(bodies.moved(step), points), distances(bodies.moved(-step), points)
+        error = np.abs((ahead - behind) / 2e-6 - row)
+        assert np.quantile(error, 0.9) < 1e-4 * (1 + np.abs(row).max()), number
+
+
+@pytest.mark.parametrize("bodies", [lone(0.3, 3.0), blend(mirrored=False), blend(mirrored=True)])
+@pytest.mark.parametrize("axis", [None, 0, 1])
+def test_the_scene_has_the_same_surface(bodies: Bodies, axis: int | None) -> None:
+    rotation = np.roll(AXES, axis, axis=1) if axis else np.eye(3)
+    frame = Frame(np.zeros(3) if axis is not None else np.array([1.0, 2.0, -3.0]), 5.0, rotation, axis)
+    points = on_surface(bodies)
+    slope = distances(bodies, points + 1e-4 * normals(bodies, points))
+    assert np.all(slope > 0)
+    terms = Terms.of(scene_of(bodies, frame))
+    inside, outside = (
+        (points + step * normals(bodies, points)) @ frame.rotation * frame.size + frame.centre for step in (-1e-5, 1e-5)
+    )
+    assert np.all(log_ratio(terms, inside) > 0)
+    assert np.all(log_ratio(terms, outside) < 0)
