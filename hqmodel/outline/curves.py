@@ -1,7 +1,7 @@
 """Loops of points on an outline made into few cubic Bézier curves, each within a tolerance of the true outline.
 
-A point of the outline comes with its tangent, so a piece between two of them is known to the fourth order in its length. Points are
-added until every piece is near enough, then left out again wherever one piece does for two; sharp corners are kept.
+A point of the outline comes with its tangent, so a piece between two of them is known to the fourth order in its length. Points
+are added until every piece is near enough, then left out again wherever one piece does for two; sharp corners are kept.
 """
 
 from __future__ import annotations
