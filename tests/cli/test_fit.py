@@ -17,7 +17,7 @@ from .conftest import Command, files
 def test_points_of_a_ball_become_a_ball(hqmodel: Command) -> None:
     points = np.random.default_rng(3).normal(size=(800, 3))
     points *= 1.5 / np.linalg.norm(points, axis=1, keepdims=True)
-    np.savetxt("ball.xyz", points + [1, 2, 3])
+    np.savetxt("ball.xyz", points + np.array([1.0, 2.0, 3.0]))
     ended = hqmodel("fit", "ball.xyz", "-o", "fitted.json", "--json")
     assert (ended.status, ended.err) == (0, "")
     assert json.loads(ended.out)
