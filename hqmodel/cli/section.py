@@ -20,7 +20,7 @@ _AXES = {"x": "1,0,0", "y": "0,1,0", "z": "0,0,1"}
 
 Output = Annotated[
     list[Path],
-    typer.Option("-o", "--output", metavar="FILE", help="The drawing, .svg or .dxf. May be repeated.", show_default=False),
+    typer.Option("-o", "--output", metavar="FILE", help="The drawing: .svg with true curves, or .dxf with polylines for cutters. May be repeated.", show_default=False),
 ]
 Plane_ = Annotated[str, typer.Option("--plane", metavar="AXIS=D", help="x=D, y=D or z=D, or A,B,C=D for Ax + By + Cz = D.")]
 Unit_ = Annotated[Unit | None, typer.Option("--unit", help="The unit that lengths in the file are in.")]
@@ -38,7 +38,7 @@ def section(
     as_json: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """Write the body's outline in a plane: .svg with true curves, .dxf with polylines for cutters."""
+    """Write the body's outline in a plane, as .svg or .dxf."""
     started = perf_counter()
     where = _plane_of(plane)
     scene = scene_of(preset, slice_t, settings)
