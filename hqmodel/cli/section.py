@@ -20,7 +20,13 @@ _AXES = {"x": "1,0,0", "y": "0,1,0", "z": "0,0,1"}
 
 Output = Annotated[
     list[Path],
-    typer.Option("-o", "--output", metavar="FILE", help="The drawing: .svg with true curves, or .dxf with polylines for cutters. May be repeated.", show_default=False),
+    typer.Option(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="The drawing: .svg with true curves, or .dxf with polylines for cutters. May be repeated.",
+        show_default=False,
+    ),
 ]
 Plane_ = Annotated[str, typer.Option("--plane", metavar="AXIS=D", help="x=D, y=D or z=D, or A,B,C=D for Ax + By + Cz = D.")]
 Unit_ = Annotated[Unit | None, typer.Option("--unit", help="The unit that lengths in the file are in.")]
