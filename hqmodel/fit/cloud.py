@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -65,6 +65,12 @@ class Cloud:
     def part(self, count: int) -> Cloud:
         """The first so many points: a random sample."""
         return self.only(slice(count)) if count < len(self.points) else self
+
+    def reframed(self, frame: Frame) -> Cloud:
+        """The same points in another frame of the same size."""
+        turn = self.frame.rotation.T
+        where = self.points @ turn * self.frame.size + self.frame.centre
+        return replace(self, points=frame.local(where), normals=self.normals @ turn @ frame.rotation.T, frame=frame)
 
     def only(self, chosen: slice | NDArray[np.bool_]) -> Cloud:
         """Some of the points."""

@@ -23,6 +23,8 @@ _HULL_POINTS = 300
 _BEYOND, _SOFT = 0.1, 0.3
 # Starts that are refined, and strips that are tried each time.
 _BEST, _TRIED = 5, 4
+# Normals with such a cosine between them are tried once.
+_SAME = 0.9
 # Exponents that a new strip begins with.
 _NEW_GAMMAS = 3.0, 12.0
 
@@ -38,17 +40,20 @@ class Step:
 def evidence_of(cloud: Cloud, count: int, rng: np.random.Generator) -> Evidence:
     """What so many of the cloud's points tell: the surface, and that the body ends where they do, unless they say otherwise.
 
-    Normals are told by points a little outside that are to lie so far from the surface. The hull's say is weak: it holds the
-    side of a body that no point was seen of.
+    The hull's say is weak: it holds the side of a body that no point was seen of.
     """
     part = cloud.part(count)
     known = cloud.part(4 * MIDDLE)
     hull, thickness = beyond_hull(known.points[known.trusted], _BEYOND, _HULL_POINTS, rng)
-    surface, away = part.points, np.zeros(len(part.points))
-    if part.oriented:
-        surface = np.concatenate([surface, surface + _LIFT * part.normals])
-        away = np.concatenate([away, np.full(len(away), _LIFT)])
-    return Evidence(surface, away, outside=hull, softness=_SOFT * thickness)
+    return Evidence(*lifted(part), outside=hull, softness=_SOFT * thickness)
+
+
+def lifted(cloud: Cloud) -> tuple[Array, Array]:
+    """The points and how far from the surface they are to lie; outward normals are told by points a little outside."""
+    away = np.zeros(len(cloud.points))
+    if not cloud.oriented:
+        return cloud.points, away
+    return np.concatenate([cloud.points, cloud.points + _LIFT * cloud.normals]), np.concatenate([away, away + _LIFT])
 
 
 def lone_body(cloud: Cloud, strips: int, floor: float, rng: np.random.Generator, tell: Tell) -> tuple[Solution, list[Step]]:
@@ -84,9 +89,10 @@ def _best_start(
 
 def _grown(cloud: Cloud, middle: Evidence, best: Solution, strips: int, floor: float, steps: list[Step], tell: Tell) -> Solution:
     """With strips added as long as they earn their place."""
+    part = cloud.part(MIDDLE)
     while (count := len(best.bodies.owner)) < strips:
         tell(0.5 + 0.3 * count / strips, "Adding strips")
-        tried = [solved(bodies, middle, floor, 12) for bodies in with_one_more(cloud.part(MIDDLE), best)]
+        tried = [solved(bodies, middle, floor, 12) for bodies in with_one_more(part.only(part.trusted), best)]
         if not tried:
             break
         trial = min(tried, key=lambda solution: _criterion(solution, middle))
@@ -113,32 +119,29 @@ def _pruned(middle: Evidence, best: Solution, floor: float, steps: list[Step], t
     return best
 
 
-def with_one_more(cloud: Cloud, solution: Solution) -> list[Bodies]:
-    """The body with a strip more, in several ways: a plane laid against the surface where the distances are worst."""
+def with_one_more(cloud: Cloud, solution: Solution, body: int = 0) -> list[Bodies]:
+    """A body with a strip more, in several ways: a plane laid against its points, the cloud, where the distances are worst."""
     reach = max(4 * solution.noise.sigma, 0.02)
     miss = np.clip(distances(solution.bodies, cloud.points), -reach, reach)
-    worst = np.abs(np.mean(miss[neighbours(cloud.points)[1]], axis=1)) * cloud.trusted
+    worst = np.abs(np.mean(miss[neighbours(cloud.points)[1]], axis=1))
     ways = []
     for _ in range(_TRIED):
         if not worst.any():
             break
         at = int(np.argmax(worst))
         normal = cloud.normals[at]
-        ways += [
-            _with_plane(solution.bodies, cloud.points[cloud.trusted], cloud.points[at], normal, gamma) for gamma in _NEW_GAMMAS
-        ]
-        worst[np.abs(cloud.normals @ normal) > 0.9] = 0.0
+        ways += [_with_plane(solution.bodies, body, cloud.points, at, normal, gamma) for gamma in _NEW_GAMMAS]
+        worst[np.abs(cloud.normals @ normal) > _SAME] = 0.0
     return ways
 
 
-def _with_plane(bodies: Bodies, points: Array, at: Array, normal: Array, gamma: float) -> Bodies:
+def _with_plane(bodies: Bodies, body: int, points: Array, at: int, normal: Array, gamma: float) -> Bodies:
     """With a strip that has one plane at a point and the other behind all points."""
     along = points @ normal
-    here = float(at @ normal)
     low, high = np.quantile(along, (0.01, 0.99))
-    far = float(low if high - here < here - low else high)
-    half = max(abs(here - far) / 2, 1e-2)
-    return bodies.with_strip(0, normal / half, -(here + far) / 2 / half, gamma)
+    far = float(low if high - along[at] < along[at] - low else high)
+    half = max(abs(along[at] - far) / 2, 1e-2)
+    return bodies.with_strip(body, normal / half, -(along[at] + far) / 2 / half, gamma)
 
 
 def _criterion(solution: Solution, evidence: Evidence) -> float:
