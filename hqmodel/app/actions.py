@@ -8,7 +8,7 @@ from functools import partial, reduce
 from typing import TYPE_CHECKING
 
 from hqmodel import edit
-from hqmodel.edit.primitives import FLAT
+from hqmodel.edit.dimension import FLAT
 from hqmodel.field import region
 from hqmodel.model import VIEWS, Strip
 
