@@ -2,10 +2,10 @@
 
 from .angles import about, angles, composed, quaternion
 from .arranging import carve, move_shapes, repeat_around, scale_shapes, stretch_shapes, turn_shapes
-from .cuts import chop, clay_at, pat
+from .cuts import CHOP, PAT, chop, clay_at, pat
 from .dimension import extruded, flattened
 from .exponents import scale_exponents
-from .frames import STARTS, frame_of, framed_scene, make_orthonormal, replace_frame, set_frame, turn_frame
+from .frames import SHARP, STARTS, frame_of, framed_scene, make_orthonormal, replace_frame, set_frame, turn_frame
 from .history import History
 from .paths import EditError, get, locations, parse, put, reset
 from .planes import push_plane, slide_strip, spread_planes, tilt_strip
@@ -14,7 +14,10 @@ from .shapes import add_shape, duplicate_shape, move_shape, remove_shapes
 from .strips import add_strip, duplicate_strip, move_strip, remove_strip, set_group, ungroup
 
 __all__ = [
+    "CHOP",
+    "PAT",
     "PRIMITIVES",
+    "SHARP",
     "STARTS",
     "EditError",
     "History",
