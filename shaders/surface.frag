@@ -3,12 +3,16 @@
 
 #include "jet.glsl"
 #include "march.glsl"
-
-const int STRIPS = 3;
+#include "modes.glsl"
 
 uniform sampler2D state;
 uniform int region_cut;
-uniform int mode;
+#ifdef CURVATURE
+const int CURVATURE_COLORS = 7;
+uniform vec3 curvature_colors[CURVATURE_COLORS]; // evenly placed on the scale
+uniform float curvature_rate;
+uniform float curvature_half;
+#endif
 uniform int ground;       // whether there is one
 uniform float ground_z;
 
@@ -26,17 +30,19 @@ vec3 face_normal(vec3 x)
     return axis * sign(from);
 }
 
-// Blue where the surface is a saddle, grey where it is flat or bent one way, orange where it is a dome.
+#ifdef CURVATURE
+// From the legend's colours.
 vec3 curvature_color(float curvature)
 {
-    float size = asinh(4.0 * abs(curvature)) / asinh(400.0);
-    vec3 far = curvature < 0.0 ? vec3(0.03, 0.13, 0.62) : vec3(0.78, 0.16, 0.02);
-    return mix(vec3(0.62), far, smoothstep(0.0, 1.0, min(size, 1.0)));
+    float place = clamp(0.5 + curvature_half * asinh(curvature * curvature_rate), 0.0, 1.0) * float(CURVATURE_COLORS - 1);
+    int below = min(int(place), CURVATURE_COLORS - 2);
+    return mix(curvature_colors[below], curvature_colors[below + 1], place - float(below));
 }
+#endif
 
 vec3 body_color(vec3 x, float strip)
 {
-    if (mode == STRIPS)
+    if (mode == MODE_STRIPS)
         return strip < 0.0 ? vec3(0.5) : strip_row(int(strip)).tint;
 #ifdef CURVATURE
     // a hair aside: at h = 0 itself a second derivative is not had from powers of h

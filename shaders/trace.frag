@@ -4,6 +4,7 @@
 
 #include "march.glsl"
 #include "light.glsl"
+#include "modes.glsl"
 
 uniform sampler2D state;
 uniform int fresh; // whether this is the first draw
@@ -41,7 +42,9 @@ Ray this_ray(ivec2 at)
     if (dot(direction, normal.xyz) <= 0.0)
         return Ray(position, direction, -1.0);
 #else
-    vec3 direction = sky_ray(normal.xyz, spread(pixel, SKY_SALT));
+    vec3 to_eye = -sight_through(floor(pixel) + jitter).direction;
+    bool mirrors = mode == MODE_METAL && normal.w == 1.0;
+    vec3 direction = mirrors ? mirrored_ray(normal.xyz, to_eye, spread(pixel, SKY_SALT)) : sky_ray(normal.xyz, spread(pixel, SKY_SALT));
 #endif
     return enter_region(position + LIFT * normal.xyz, direction, enter);
 #endif

@@ -26,7 +26,9 @@ View = Annotated[
 ]
 Azimuth = Annotated[float | None, typer.Option("--azimuth", metavar="DEGREES", help="From the front (0) to the right (90).")]
 Elevation = Annotated[float | None, typer.Option("--elevation", metavar="DEGREES", help="From below (-90) to above (90).")]
-Mode = Annotated[str, typer.Option("--mode", metavar="MODE", help="clay, normals, curvature, strips or depth.")]
+Mode = Annotated[
+    str, typer.Option("--mode", metavar="MODE", help="clay, porcelain, metal, studio, normals, curvature, strips or depth.")
+]
 
 
 def render(
@@ -49,6 +51,7 @@ def render(
     checked([output], [".png"], [preset])
     camera = _camera(scene, view, azimuth, elevation, width / height)
     from hqmodel import gpu  # late: a preset at fault is told at once
+    from hqmodel.field import region
 
     if mode not in gpu.MODES:
         raise Fault(f"--mode: expected {', '.join(gpu.MODES)}, got {shown(mode)}", USAGE)
@@ -57,6 +60,8 @@ def render(
             pixels = gpu.render(scene, camera, (width, height), mode, progress=report)
     except gpu.GpuError as error:
         raise Fault(str(error), MACHINE) from None
+    if mode == "curvature":
+        pixels = gpu.with_legend(pixels, gpu.Legend.of(region(scene)))
     from PIL import Image
 
     with writing([output]) as (stream,):

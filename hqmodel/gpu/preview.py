@@ -16,11 +16,13 @@ from hqmodel.model import Camera, Scene
 
 from .context import framebuffer_kept
 from .floor import floor_height
+from .legend import Legend
 from .memory import SceneMemory
+from .modes import MATERIALS, MODES
 from .picture import Picture
 from .screen import is_slow
 from .sight import camera_uniforms, depth_range, light_uniforms
-from .studio import MODES, Shot, Studio, tile_side
+from .studio import Shot, Studio, tile_side
 
 # Seconds that a draft should take: the next one's pixels are made coarser or finer for that.
 _DRAFT_SECONDS = 0.05
@@ -86,6 +88,10 @@ class Preview:
                 self._refine(started + budget)
         return self._left
 
+    def legend(self) -> Legend:
+        """What the colours of the curvature mode mean in this scene."""
+        return Legend.of(self.region)
+
     def pixels(self) -> NDArray[np.uint8]:
         """The picture as it stands, (height, width, 4), top row first."""
         width, height = self.texture.size
@@ -139,7 +145,7 @@ class Preview:
 
     def samples(self, mode: str) -> int:
         """How many samples a pixel a finished picture of that mode has."""
-        return _LIT_SAMPLES if mode == "clay" and not self._slow else _SAMPLES
+        return _LIT_SAMPLES if mode in MATERIALS and not self._slow else _SAMPLES
 
     def _ready_studio(self) -> Studio:
         side = tile_side(self._memory.rows, self._slow)
@@ -158,7 +164,8 @@ def shot_of(camera: Camera, size: tuple[int, int], mode: str, where: Region, mem
         **camera_uniforms(camera, size, memory.frame),
         **light_uniforms(camera),
         "depth_range": depth_range(camera, where, memory.frame),
-        "ground": int(mode == "clay"),
+        "ground": int(mode in MATERIALS),
         "ground_z": floor,
+        **(Legend.of(where).uniforms(memory.frame.scale) if mode == "curvature" else {}),
     }
     return Shot(mode, size, uniforms)

@@ -9,11 +9,11 @@ from typing import Any
 import moderngl
 
 from .memory import SceneMemory
+from .modes import MATERIALS, MODES
 from .screen import Rectangle, Target, shared_pass
 from .sight import KEY_RADIUS
 from .tracing import trace
 
-MODES = ("clay", "normals", "curvature", "strips", "depth")
 # Samples of light for each look through the camera.
 _LIGHTS = 2
 # Steps of the two-dimensional golden ratio (Roberts' R2 sequence): even at any count.
@@ -32,7 +32,12 @@ class Shot:
     @property
     def lit(self) -> bool:
         """Whether this mode shows light and shadow."""
-        return self.mode == "clay"
+        return self.mode in MATERIALS
+
+    @property
+    def shadowed(self) -> bool:
+        """Whether the key light throws shadows in it."""
+        return self.lit and self.mode != "studio"
 
 
 class Studio:
@@ -53,6 +58,7 @@ class Studio:
         uniforms = {
             **shot.uniforms,
             "mode": MODES.index(shot.mode),
+            "lit": int(shot.lit),
             "picture_size": shot.size,
             "tile_origin": (tile[0] + shot.origin[0], tile[1] + shot.origin[1]),
             "target_origin": tile[:2],
@@ -66,7 +72,7 @@ class Studio:
                 uniforms["jitter"] = tuple((0.5 + view * step) % 1.0 for step in _STEP)
                 self._look(memory, here, uniforms)
             inputs = self._surface_inputs()
-            if shot.lit:
+            if shot.shadowed:
                 inputs["key_state"] = self._trace("key", 1, memory, here, uniforms)
             if uniforms["sky_rays"]:
                 inputs["sky_state"] = self._trace("sky", 2, memory, here, uniforms)

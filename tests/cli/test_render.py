@@ -9,6 +9,8 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
+from hqmodel.gpu import MODES
+
 from .conftest import Command, files
 
 
@@ -52,7 +54,7 @@ def test_each_mode_is_another_picture(hqmodel: Command) -> None:
         (["-o", "a.png", "--size", "0x10"], "--size: expected WxH in pixels, each from 1 to 8192, got '0x10'"),
         (["-o", "a.png", "--size", "10x9999"], "--size: expected WxH in pixels, each from 1 to 8192, got '10x9999'"),
         (["-o", "a.png", "--view", "up"], "--view: expected front, right, back, left, top, bottom, iso, got 'up'"),
-        (["-o", "a.png", "--mode", "wax"], "--mode: expected clay, normals, curvature, strips, depth, got 'wax'"),
+        (["-o", "a.png", "--mode", "wax"], f"--mode: expected {', '.join(MODES)}, got 'wax'"),
         (["-o", "a.png", "--elevation", "91"], "--elevation: expected degrees from -90 to 90, got 91.0"),
         (["-o", "a.png", "--azimuth", "nan"], "--azimuth: expected degrees from -360 to 360, got nan"),
     ],
