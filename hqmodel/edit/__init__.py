@@ -1,6 +1,18 @@
 """Edits as named pure functions from a scene to a new one, and the history that they make."""
 
 from .angles import about, angles, composed, quaternion
+from .animation import (
+    Animation,
+    Sweep,
+    add_animation,
+    animation_at,
+    animations,
+    filmed,
+    remove_animation,
+    set_animation,
+    staged,
+    sweep_of,
+)
 from .arranging import carve, move_shapes, repeat_around, scale_shapes, stretch_shapes, turn_shapes
 from .cuts import CHOP, PAT, chop, clay_at, pat
 from .dimension import extruded, flattened
@@ -19,12 +31,17 @@ __all__ = [
     "PRIMITIVES",
     "SHARP",
     "STARTS",
+    "Animation",
     "EditError",
     "History",
+    "Sweep",
     "about",
+    "add_animation",
     "add_shape",
     "add_strip",
     "angles",
+    "animation_at",
+    "animations",
     "carve",
     "chop",
     "clay_at",
@@ -32,6 +49,7 @@ __all__ = [
     "duplicate_shape",
     "duplicate_strip",
     "extruded",
+    "filmed",
     "flattened",
     "frame_of",
     "framed_scene",
@@ -49,6 +67,7 @@ __all__ = [
     "push_plane",
     "put",
     "quaternion",
+    "remove_animation",
     "remove_shapes",
     "remove_strip",
     "repeat_around",
@@ -56,11 +75,14 @@ __all__ = [
     "reset",
     "scale_exponents",
     "scale_shapes",
+    "set_animation",
     "set_frame",
     "set_group",
     "slide_strip",
     "spread_planes",
+    "staged",
     "stretch_shapes",
+    "sweep_of",
     "tilt_strip",
     "turn_frame",
     "turn_shapes",

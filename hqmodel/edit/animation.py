@@ -114,10 +114,10 @@ class Animation(Value):
 
 def animations(scene: Scene) -> tuple[Animation, ...]:
     """What the preset's `animations` say; EditError, `animations[0].sweeps[1].values[2]: expected what, got what`."""
-    return tuple(animation(scene, index) for index in range(len(scene.animations)))
+    return tuple(animation_at(scene, index) for index in range(len(scene.animations)))
 
 
-def animation(scene: Scene, index: int) -> Animation:
+def animation_at(scene: Scene, index: int) -> Animation:
     """One of the scene's animations; EditError when it is at fault or not there."""
     tree = get(scene, ("animations", index))
     try:
@@ -157,7 +157,7 @@ def staged(scene: Scene, animation: Animation, phase: float) -> Scene:
 def filmed(camera: Camera, animation: Animation, phase: float) -> Camera:
     """The camera at a phase."""
     angles = {sweep.path.rpartition(".")[2]: sweep.at(phase) for sweep in animation.sweeps if sweep.path in CAMERA}
-    return replace(camera, **angles)
+    return replace(camera, azimuth=angles.get("azimuth", camera.azimuth), elevation=angles.get("elevation", camera.elevation))
 
 
 def add_animation(scene: Scene, animation: Animation) -> Scene:
