@@ -22,8 +22,8 @@ Picture = NDArray[np.uint8]
 
 # Colours of a GIF's palette: one place is left for what stays as it was in the frame before.
 _COLORS = 255
-# Frames that the palette is made of, and the pixels along their longer side.
-_SAMPLED, _SAMPLE = 16, 160
+# Frames that the palette is made of.
+_SAMPLED = 16
 # Viewers show what is meant to be faster than this slowly.
 GIF_FASTEST = 50
 _NO_FFMPEG = "expected ffmpeg to write it with, found none: install it (on Debian and Ubuntu: ffmpeg), or write .gif or .png"
@@ -62,7 +62,7 @@ def write(film: Film, path: Path) -> list[Path]:
 
 
 def _gif(film: Film, path: Path) -> list[Path]:
-    """One palette for all frames; what is between its colours is left to the nearest, so that nothing crawls."""
+    """One palette for all frames, and no dithering: what is between its colours goes to the nearest, and nothing crawls."""
     palette = _palette(film)
     shown = [film.picture(index).quantize(palette=palette, dither=Image.Dither.NONE) for index in range(len(film.pictures))]
     first, *rest = (shown[index] for index in film.order)
@@ -75,13 +75,12 @@ def _gif(film: Film, path: Path) -> list[Path]:
 
 
 def _palette(film: Film) -> Image.Image:
-    """The colours that serve frames from all of the film best."""
+    """The colours that serve frames from all of the film best; the ground, though most of it, has no more than its share."""
     chosen = np.unique(np.linspace(0, len(film.pictures) - 1, _SAMPLED).round().astype(int))
-    samples = [film.picture(int(index)) for index in chosen]
-    for sample in samples:
-        sample.thumbnail((_SAMPLE, _SAMPLE), Image.Resampling.NEAREST)
-    strip = np.concatenate([np.asarray(sample) for sample in samples])
-    return Image.fromarray(strip).quantize(_COLORS, method=Image.Quantize.MEDIANCUT, kmeans=1)
+    pixels = np.concatenate([np.asarray(film.picture(int(index)))[::2, ::2].reshape(-1, 3) for index in chosen])
+    colors, counts = np.unique(pixels, axis=0, return_counts=True)
+    shares = np.repeat(colors, np.ceil(np.sqrt(counts)).astype(int), axis=0)
+    return Image.fromarray(shares[None]).quantize(_COLORS, method=Image.Quantize.MEDIANCUT, kmeans=1)
 
 
 def _png(film: Film, path: Path) -> list[Path]:
