@@ -10,13 +10,20 @@ uniform sampler2D surface_normal;
 uniform sampler2D surface_color;
 uniform sampler2D key_state;   // where rays towards the key light ended
 uniform sampler2D sky_state;   // and rays all round
+uniform sampler2D shell_position; // surfaces of what is shown as faint shells
+uniform sampler2D shell_normal;
+uniform int shells;            // whether there are such
 uniform int sky_rays;          // whether there are such rays
 uniform vec2 target_origin;    // the tile's lower left in the target
 uniform int lit;               // whether the mode is a material's
 uniform vec2 depth_range;
 
+const vec3 SHELL = vec3(0.16, 0.42, 0.85);
+
 layout(location = 0) out vec4 color;
-layout(location = 1) out vec4 guide; // what resolve.frag smooths along: the normal, shorter on the ground, and the distance
+layout(location = 1) out vec4 guide;  // what resolve.frag smooths along: the normal, its length telling apart
+                                      // the ground and the lines of the cut, and the distance
+layout(location = 2) out vec4 mark;   // x: 1 + the row of the strip that shapes the first sample's surface
 
 bool meets_body(sampler2D state, ivec2 at)
 {
@@ -82,19 +89,27 @@ vec3 behind(Sight sight, vec2 pixel)
     return mode == MODE_STUDIO ? BRIGHT : backdrop(sight.direction, 2.0 * pixel / picture_size - 1.0);
 }
 
-void main()
+// A faint shell over the picture, clearer at its rim, and fainter where the body hides it.
+void add_shell(vec3 to_eye, float behind, ivec2 at)
 {
-    ivec2 at = ivec2(gl_FragCoord.xy - target_origin);
-    vec2 pixel = vec2(at) + 0.5 + tile_origin;
-    vec4 position = texelFetch(surface_position, at, 0);
-    vec4 normal = texelFetch(surface_normal, at, 0);
-    vec3 own = texelFetch(surface_color, at, 0).rgb;
-    Sight sight = sight_through(floor(pixel) + jitter);
-    vec3 to_eye = -sight.direction;
-    color = vec4(behind(sight, pixel), 1.0);
-    guide = vec4(normal.xyz * (normal.w == 2.0 ? 0.6 : 1.0), position.w);
+    vec4 normal = texelFetch(shell_normal, at, 0);
     if (normal.w == 0.0)
         return;
+    float facing = clamp(dot(normal.xyz, to_eye), 0.0, 1.0);
+    float share = 0.14 + 0.5 * (1.0 - facing) * (1.0 - facing);
+    if (behind > 0.0 && texelFetch(shell_position, at, 0).w > behind)
+        share *= 0.35;
+    color.rgb = mix(color.rgb, SHELL, share);
+    guide.xyz += share * normal.xyz;
+}
+
+void shade_surface(Sight sight, vec4 position, vec4 normal, vec3 own, vec2 pixel, ivec2 at)
+{
+    vec3 to_eye = -sight.direction;
+    if (normal.w == 3.0 && mode != MODE_NORMALS && mode != MODE_DEPTH) {
+        color.rgb = own;
+        return;
+    }
     if (lit == 0) {
         color.rgb = property_color(own, normal.xyz, to_eye, position.w);
         return;
@@ -106,4 +121,22 @@ void main()
     else
         light.around = light_around(normal.xyz, ground ? vec3(0.5) : own, pixel, at);
     color.rgb = ground ? color.rgb * ground_shade(position.xyz, light) : material(own, normal.xyz, to_eye, light);
+}
+
+void main()
+{
+    ivec2 at = ivec2(gl_FragCoord.xy - target_origin);
+    vec2 pixel = vec2(at) + 0.5 + tile_origin;
+    vec4 position = texelFetch(surface_position, at, 0);
+    vec4 normal = texelFetch(surface_normal, at, 0);
+    vec4 own = texelFetch(surface_color, at, 0);
+    Sight sight = sight_through(floor(pixel) + jitter);
+    color = vec4(behind(sight, pixel), 1.0);
+    float length_there = normal.w == 2.0 ? 0.6 : normal.w == 3.0 ? 0.5 + 3.0 * dot(own.rgb, vec3(0.333)) : 1.0;
+    guide = vec4(length_there * normal.xyz, position.w);
+    mark = vec4(sample_number == 0 && normal.w == 1.0 ? own.w + 1.0 : 0.0, 0.0, 0.0, 0.0);
+    if (normal.w != 0.0)
+        shade_surface(sight, position, normal, own.rgb, pixel, at);
+    if (shells != 0)
+        add_shell(-sight.direction, position.w, at);
 }

@@ -5,6 +5,8 @@
 #include "march.glsl"
 #include "modes.glsl"
 
+const float HATCH = 0.07; // from line to line, about, in the unit frame
+
 uniform sampler2D state;
 uniform int region_cut;
 #ifdef CURVATURE
@@ -17,8 +19,14 @@ uniform int ground;       // whether there is one
 uniform float ground_z;
 
 layout(location = 0) out vec4 surface_position; // xyz, w: distance from the eye
-layout(location = 1) out vec4 surface_normal;   // xyz, w: 0 nothing, 1 the body, 2 the ground
+layout(location = 1) out vec4 surface_normal;   // xyz, w: 0 nothing, 1 the body, 2 the ground, 3 the body's cut
 layout(location = 2) out vec4 surface_color;    // linear light, w: the strip's row, -1 for none
+
+// Whether a point lies in the cut.
+bool in_cut(vec3 x)
+{
+    return cut.xyz != vec3(0.0) && abs(dot(cut.xyz, x) - cut.w) < 1e-4;
+}
 
 // The face of the region's box that a point on it lies in.
 vec3 face_normal(vec3 x)
@@ -52,6 +60,16 @@ vec3 body_color(vec3 x, float strip)
 #endif
 }
 
+// The body's own colour, darker, under thin slanting lines.
+vec3 hatched(vec3 color, vec3 x)
+{
+    vec3 across = abs(cut.z) < 0.9 ? vec3(-cut.y, cut.x, 0.0) : vec3(1.0, 0.0, 0.0);
+    across = normalize(across - dot(across, cut.xyz) * cut.xyz);
+    float place = dot(x, across + cross(cut.xyz, across)) / HATCH;
+    float line = smoothstep(0.34, 0.44, abs(fract(place) - 0.5));
+    return mix(0.55 * color + 0.10, 0.25 * color + 0.03, 0.75 * line);
+}
+
 void main()
 {
     Sight sight = tile_sight();
@@ -76,12 +94,17 @@ void main()
     vec3 x = ray.origin + (distance - enter) * ray.direction;
     Touch touch = touch_at(x);
     vec3 normal = touch.normal;
-    bool capped = march.w == INSIDE && region_cut != 0 && enter > 0.0;
+    bool capped = march.w == INSIDE && enter > 0.0 && (region_cut != 0 || in_cut(x));
     if (capped)
         normal = face_normal(x);
     else if (march.w == INSIDE && enter == 0.0 || normal == vec3(0.0))
         normal = -sight.direction;
     surface_position = vec4(x, distance);
+    if (capped && in_cut(x)) {
+        surface_normal = vec4(cut.xyz, 3.0);
+        surface_color = vec4(hatched(mixed_color(x), x), -1.0);
+        return;
+    }
     surface_normal = vec4(normal, 1.0);
     surface_color = vec4(body_color(x, capped ? -1.0 : touch.strip), capped ? -1.0 : touch.strip);
 }

@@ -13,7 +13,7 @@ import typer
 from hqmodel.model import VIEWS, Camera, Scene, shown
 
 from .faults import MACHINE, USAGE, Fault
-from .options import Json, Preset, Quiet, Set, Slice, scene_of
+from .options import PLANE_HELP, Json, Preset, Quiet, Set, Slice, plane_of, scene_of
 from .outputs import checked, tell, writing
 from .progress import progress
 
@@ -30,6 +30,8 @@ Mode = Annotated[
     str, typer.Option("--mode", metavar="MODE", help="clay, porcelain, metal, studio, normals, curvature, strips or depth.")
 ]
 
+Cut = Annotated[str | None, typer.Option("--cut", metavar="AXIS=D", help=f"Cut the body open by a plane: {PLANE_HELP}")]
+
 
 def render(
     preset: Preset,
@@ -39,6 +41,7 @@ def render(
     azimuth: Azimuth = None,
     elevation: Elevation = None,
     mode: Mode = "clay",
+    cut: Cut = None,
     slice_t: Slice = None,
     settings: Set = None,
     as_json: Json = False,
@@ -49,6 +52,7 @@ def render(
     width, height = _pixels(size)
     scene = scene_of(preset, slice_t, settings)
     checked([output], [".png"], [preset])
+    plane = None if cut is None else plane_of("--cut", cut)
     camera = _camera(scene, view, azimuth, elevation, width / height)
     from hqmodel import gpu  # late: a preset at fault is told at once
     from hqmodel.field import region
@@ -57,7 +61,7 @@ def render(
         raise Fault(f"--mode: expected {', '.join(gpu.MODES)}, got {shown(mode)}", USAGE)
     try:
         with progress(quiet) as report:
-            pixels = gpu.render(scene, camera, (width, height), mode, progress=report)
+            pixels = gpu.render(scene, camera, (width, height), mode, plane, progress=report)
     except gpu.GpuError as error:
         raise Fault(str(error), MACHINE) from None
     if mode == "curvature":

@@ -18,6 +18,7 @@ from .faces import Face, face, image_at
 from .frames import PLANES, frame_residual, nearest_frame, slice_range, turned_frame
 from .generators import FEWEST_TERMS, FRAMES, SOLIDS, make_frame
 from .intervals import box_bounds, relevant_terms, segment_bounds
+from .plane import Plane
 from .rays import first_hits
 from .region import Region, reaches, region
 from .symmetry import mirror_axes
@@ -30,6 +31,7 @@ __all__ = [
     "SOLIDS",
     "Curvature",
     "Face",
+    "Plane",
     "Region",
     "Terms",
     "box_bounds",

@@ -22,9 +22,12 @@ class SceneMemory:
         self.ctx = ctx
         self._texture: moderngl.Texture | None = None
 
-    def write(self, scene: Scene, terms: Terms, region: Region) -> None:
-        """Replace what is there; the texture is made anew only when it has to grow or shrink."""
-        self.frame = Frame.of(region)
+    def write(self, scene: Scene, terms: Terms, region: Region, frame: Frame | None = None) -> None:
+        """Replace what is there, in the region's own unit frame unless told another.
+
+        The texture is made anew only when it has to grow or shrink.
+        """
+        self.frame = Frame.of(region) if frame is None else frame
         packed = pack(scene, terms, self.frame)
         texels = packed.texels()
         size = texels.shape[1], texels.shape[0]
@@ -39,6 +42,7 @@ class SceneMemory:
             "region_low": tuple(self.frame.local(region.low)),
             "region_high": tuple(self.frame.local(region.high)),
             "region_cut": int(region.cut),
+            "cut": (0.0, 0.0, 0.0, 1.0),
             "scene_memory": SCENE_UNIT,
         }
 

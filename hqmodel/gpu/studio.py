@@ -28,6 +28,7 @@ class Shot:
     size: tuple[int, int]
     uniforms: dict[str, Any] = field(repr=False)
     origin: tuple[int, int] = (0, 0)  # the pixel at the lower left of what is drawn of it
+    ghosts: SceneMemory | None = field(default=None, repr=False)  # what is shown as faint shells
 
     @property
     def lit(self) -> bool:
@@ -45,7 +46,7 @@ class Studio:
 
     def __init__(self, ctx: moderngl.Context, side: int) -> None:
         self.ctx, self.side = ctx, side
-        self._surface = Target(ctx, (side, side), count=3)
+        self._surface, self._shells = (Target(ctx, (side, side), count=3) for _ in range(2))
         self._states = [Target(ctx, (side, side)) for _ in range(4)]
 
     def draw(self, memory: SceneMemory, shot: Shot, tile: Rectangle, target: Target, samples: Sequence[int]) -> None:
@@ -59,6 +60,7 @@ class Studio:
             **shot.uniforms,
             "mode": MODES.index(shot.mode),
             "lit": int(shot.lit),
+            "shells": int(shot.ghosts is not None),
             "picture_size": shot.size,
             "tile_origin": (tile[0] + shot.origin[0], tile[1] + shot.origin[1]),
             "target_origin": tile[:2],
@@ -70,28 +72,32 @@ class Studio:
             if sample % _LIGHTS == 0 or sample == samples[0]:
                 view = sample // _LIGHTS
                 uniforms["jitter"] = tuple((0.5 + view * step) % 1.0 for step in _STEP)
-                self._look(memory, here, uniforms)
+                self._look(memory, here, uniforms, self._surface)
+                if shot.ghosts is not None:
+                    self._look(shot.ghosts, here, {**uniforms, "ground": 0}, self._shells)
             inputs = self._surface_inputs()
+            if shot.ghosts is not None:
+                inputs["shell_position"], inputs["shell_normal"] = self._shells.textures[:2]
             if shot.shadowed:
                 inputs["key_state"] = self._trace("key", 1, memory, here, uniforms)
             if uniforms["sky_rays"]:
                 inputs["sky_state"] = self._trace("sky", 2, memory, here, uniforms)
             shared_pass(self.ctx, "shade.frag").draw(target, tile, uniforms, inputs, memory, adding=sample > 0)
 
-    def _look(self, memory: SceneMemory, here: Rectangle, uniforms: dict[str, Any]) -> None:
+    def _look(self, memory: SceneMemory, here: Rectangle, uniforms: dict[str, Any], surface: Target) -> None:
         """Find the surfaces that the camera sees."""
         state = self._trace("camera", 0, memory, here, uniforms)
         defines = [name for name in memory.defines if name in ("GROUPS", "HYPERBOLIC")]
         if uniforms["mode"] == MODES.index("curvature"):
             defines.append("CURVATURE")
-        shared_pass(self.ctx, "surface.frag", tuple(defines)).draw(self._surface, here, uniforms, {"state": state}, memory)
+        shared_pass(self.ctx, "surface.frag", tuple(defines)).draw(surface, here, uniforms, {"state": state}, memory)
 
     def seen(self, memory: SceneMemory, shot: Shot, pixel: tuple[int, int]) -> bytes:
         """Position, distance, normal, kind, colour and strip's row (surface.frag) at one pixel, counted from the lower left."""
         uniforms = {**shot.uniforms, "mode": MODES.index(shot.mode), "picture_size": shot.size, "tile_origin": pixel}
         uniforms["jitter"] = (0.5, 0.5)
         here = (0, 0, 1, 1)
-        self._look(memory, here, uniforms)
+        self._look(memory, here, uniforms, self._surface)
         framebuffer = self._surface.framebuffer
         return b"".join(framebuffer.read(here, 4, attachment, dtype="f4") for attachment in range(3))
 
@@ -106,7 +112,7 @@ class Studio:
         return self._states[place].texture
 
     def release(self) -> None:
-        for target in (self._surface, *self._states):
+        for target in (self._surface, self._shells, *self._states):
             target.release()
 
 
