@@ -17,7 +17,7 @@ def run(path: Path | None = None, change: Callable[[Scene], Scene] | None = None
 
     Raises NoDisplay, one sentence, where no window can be opened. A preset that can't be read is told of in the window.
     """
-    from hqmodel.files import Settings
+    from hqmodel.files import Settings, lost
 
     from .asks import Open
     from .display import require
@@ -32,4 +32,5 @@ def run(path: Path | None = None, change: Callable[[Scene], Scene] | None = None
         session.apply([Open(path)])
     if change is not None:
         session.apply([Edit("Command line", change)])
+    session.offer(lost())
     Window(session).run()

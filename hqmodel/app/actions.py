@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import partial, reduce
 from typing import TYPE_CHECKING
 
-from hqmodel import edit
+from hqmodel import edit, files
 from hqmodel.edit.dimension import FLAT
 from hqmodel.field import region
 from hqmodel.model import VIEWS, Strip
@@ -72,6 +72,16 @@ def _open(session: Session) -> None:
 def _save_as(session: Session) -> None:
     session.release()
     session.save(None)
+
+
+def _has_versions(session: Session) -> bool:
+    path = session.document.path
+    return path is not None and files.backup_folder(path).is_dir()
+
+
+def _versions(session: Session) -> None:
+    if session.document.path is not None:
+        session.dialogs.append(ChooseFile("open", files.backup_folder(session.document.path)))
 
 
 def _exporting(session: Session) -> bool:
@@ -224,6 +234,7 @@ ACTIONS: dict[str, Action] = {
     "open": Action("Open...", _open, ("Ctrl+O",)),
     "save": Action("Save", _save, ("Ctrl+S",)),
     "save as": Action("Save As...", _save_as, ("Ctrl+Shift+S",)),
+    "versions": Action("Earlier Versions...", _versions, (), _has_versions),
     "export": Action("Export...", _export, ("Ctrl+E",), lambda s: s.export is None),
     "stop export": Action("Stop the Export", _stop_export, (), _exporting),
     "quit": Action("Quit", lambda s: s.leave(Quit()), ("Ctrl+Q",)),
@@ -263,7 +274,7 @@ RECENT = "recent"
 
 # The menu bar: names of actions, None for a line between, a pair for a menu within; RECENT stands for the recent files.
 MENUS: dict[str, tuple[Entry, ...]] = {
-    "File": ("new", "open", RECENT, None, "save", "save as", None, "export", "stop export", None, "quit"),
+    "File": ("new", "open", RECENT, None, "save", "save as", "versions", None, "export", "stop export", None, "quit"),
     "Edit": ("undo", "redo", None, "duplicate", "delete", "move up", "move down"),
     "Add": (*(f"add {kind}" for kind in edit.PRIMITIVES), None, "add strip"),
     "View": (

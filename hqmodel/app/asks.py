@@ -10,10 +10,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
+from hqmodel.files import Lost
+
 Purpose = Literal["open", "save", "export"]
 Unit = Literal["mm", "cm", "m", "in"]
 Up = Literal["y", "z"]
 Choice = Literal["save", "discard"]
+Overtaken = Literal["overwrite", "elsewhere"]
 
 
 @dataclass(frozen=True)
@@ -42,6 +45,29 @@ class Unsaved:
 
     name: str
     departure: Departure
+
+
+@dataclass(frozen=True)
+class Overwrite:
+    """The document's file holds what another program wrote there in the meantime. Answered by an Overtaken."""
+
+    path: Path
+    departure: Departure | None = None
+
+
+@dataclass(frozen=True)
+class Recover:
+    """What windows left that did not end as they should. Answered by one of them and what to do with it."""
+
+    lost: tuple[Lost, ...]
+
+
+@dataclass(frozen=True)
+class Recovered:
+    """What to do with it: go on with it, or throw it away."""
+
+    lost: Lost
+    wanted: bool
 
 
 @dataclass(frozen=True)
@@ -112,4 +138,4 @@ class About:
     """What this program is."""
 
 
-Dialog = Unsaved | ChooseFile | Problem | ExportAs | Exported | Shortcuts | About
+Dialog = Unsaved | Overwrite | Recover | ChooseFile | Problem | ExportAs | Exported | Shortcuts | About

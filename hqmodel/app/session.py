@@ -13,10 +13,11 @@ from hqmodel.field import Region, region
 from hqmodel.model import Camera, Scene
 
 from . import actions, answers
-from .asks import ChooseFile, Departure, Dialog, ExportSettings, New, Open, Problem, Quit, Unsaved
+from .asks import ChooseFile, Departure, Dialog, ExportSettings, New, Open, Overwrite, Problem, Quit, Recover, Unsaved
 from .document import Document
 from .export import ExportJob
 from .intents import Adjust, Answer, Ask, Do, Edit, Grab, Intent, Location, Look, Put, Release, Reset, Resize, Select
+from .recovery import Recovery, recovered, said
 from .selection import Selection
 from .view import View, restored
 
@@ -35,6 +36,7 @@ class Session:
 
     def __init__(self, settings: files.Settings, wake: Callable[[], None] = lambda: None) -> None:
         self.settings = settings
+        self.recovery = Recovery()
         self.wake = wake
         self.size = (800, 600)
         self.dialogs: list[Dialog] = []
@@ -204,18 +206,27 @@ class Session:
                 self.finished = True
 
     def save(self, path: Path | None, then: Departure | None = None) -> None:
-        """Save to this file, or ask for one where there is none yet, and then go on to somewhere else."""
+        """Save to this file, or ask for one where there is none yet, and then go on to somewhere else.
+
+        What another program wrote to the document's own file is not overwritten without a question.
+        """
         self._after_saving = then
         if path is None:
             self.dialogs.append(ChooseFile("save", self.folder, self.document.file_name))
-            return
+        elif path == self.document.path and self.document.overtaken:
+            self.dialogs.append(Overwrite(path, then))
+        else:
+            self.write(path, then)
+
+    def write(self, path: Path, then: Departure | None = None) -> None:
+        """Save to this file, whatever it holds."""
         try:
-            self.document.save(path, self.view.stored(self.scene.view))
+            kept = self.document.save(path, self.view.stored(self.scene.view))
         except (OSError, files.PresetError) as error:
             self.tell("Not saved", _lines(path, error))
             return
         self.keep(self.settings.opened(path))
-        self.say(f"Saved {path.name}")
+        self.say(f"Saved {path.name}" if kept else f"Saved {path.name}; the version before it could not be kept")
         if then is not None:
             self.depart(then)
 
@@ -235,6 +246,32 @@ class Session:
         """Remember these from now on, beyond the window's end where the system lets us."""
         self.settings = settings
         settings.write()
+
+    def offer(self, lost: Iterable[files.Lost]) -> None:
+        """Ask what to do with the work that windows left which did not end as they should."""
+        found = tuple(lost)
+        if found:
+            self.dialogs.append(Recover(found))
+
+    def recover(self, lost: files.Lost, others: Iterable[files.Lost]) -> None:
+        """Go on where that window was; the other ones' work is offered again next time."""
+        document, faults = recovered(lost)
+        if document is None:
+            self.offer([lost, *others])
+            self.tell("Not recovered", faults)
+            return
+        for other in others:
+            other.release()
+        self._show(document)
+        self.say(f"Recovered {lost.origin.name}, as it was at {said(lost.time)}")
+        lost.discard() if self.recovery.keep(self) else lost.release()
+        if faults:
+            self.tell("Recovered from the copy before the last one", faults)
+
+    def forget(self, lost: files.Lost, others: Iterable[files.Lost]) -> None:
+        """Throw that work away."""
+        lost.discard()
+        self.offer(others)
 
     def _open(self, path: Path) -> None:
         try:
@@ -285,7 +322,10 @@ class Session:
         self.say(f"Exporting {settings.path.name}")
 
     def poll(self) -> None:
-        """Once a frame: tell how an export ended."""
+        """Once a frame: tell how an export ended, and keep copies of what is not saved."""
+        fault = self.recovery.tick(self)
+        if fault:
+            self.complain(fault)
         job = self.export
         if job is None or job.running:
             return

@@ -19,7 +19,7 @@ from .asks import ChooseFile, Open, Quit
 from .canvas import Canvas
 from .dialogs import front
 from .form import Memory
-from .guard import Guard, rescued
+from .guard import Guard
 from .intents import Intent, Release
 from .panels import menus, outliner, presets, properties, scene, slice_bar, status, viewport
 from .session import Session
@@ -58,13 +58,16 @@ class Window:
 
     def run(self) -> None:
         """Until it is closed. Should drawing itself fail, what is not saved is kept before that goes on."""
+        recovery = self.session.recovery
         try:
             hello_imgui.run(self.params)
         except BaseException:
-            kept = rescued(self.session.scene) if self.session.history.dirty else None
+            kept = recovery.keep(self.session) if self.session.history.dirty else None
             if kept is not None:
                 print(f"hqmodel: what was not saved is in {kept}", file=sys.stderr)
+            recovery.close(keep=True)
             raise
+        recovery.close()
 
     # What hello_imgui is told
 

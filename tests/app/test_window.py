@@ -21,7 +21,11 @@ from hqmodel.model import Camera
 
 T = TypeVar("T")
 ROOT = Path(__file__).parents[2]
-SCENARIOS = re.findall(r"^def (\w+)\(hands: Hands\) -> None:", (Path(__file__).parent / "scenarios.py").read_text(), re.MULTILINE)
+SCENARIOS = [
+    f"{module.stem}:{name}"
+    for module in sorted(Path(__file__).parent.glob("scenarios*.py"))
+    for name in re.findall(r"^def (\w+)\(hands: Hands\) -> None:", module.read_text(), re.MULTILINE)
+]
 SECONDS = 240
 
 
@@ -38,7 +42,7 @@ def test_there_are_scenarios() -> None:
 
 @pytest.mark.parametrize("name", SCENARIOS)
 def test_scenario(name: str, display: str, tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "tests.app.drive", f"tests.app.scenarios:{name}", str(tmp_path)]
+    command = [sys.executable, "-m", "tests.app.drive", f"tests.app.{name}", str(tmp_path)]
     environment = surroundings(display, tmp_path)
     ended = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=SECONDS)
     assert ended.returncode == 0, ended.stdout + ended.stderr

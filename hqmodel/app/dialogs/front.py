@@ -6,14 +6,16 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
-from ..asks import About, ChooseFile, Dialog, ExportAs, Exported, Problem, Shortcuts, Unsaved
+from ..asks import About, ChooseFile, Dialog, ExportAs, Exported, Overwrite, Problem, Recover, Shortcuts, Unsaved
 from ..intents import Answer, Ask, Intent
 from ..session import Session
-from . import about, chooser, exporting, problem, unsaved
+from . import about, chooser, exporting, problem, recover, unsaved
 from .buttons import untouched
 
 _DRAWN: dict[type[Dialog], Callable[[Dialog], list[Intent]]] = {
     Unsaved: unsaved.draw,
+    Overwrite: unsaved.draw_overwrite,
+    Recover: recover.draw,
     ChooseFile: chooser.draw,
     Problem: problem.draw,
     ExportAs: exporting.draw,
@@ -53,6 +55,10 @@ def _title(dialog: Dialog) -> str:
             return {"open": "Open", "save": "Save As", "export": "Export To"}[purpose]
         case Unsaved():
             return "Unsaved Changes"
+        case Overwrite():
+            return "Changed Meanwhile"
+        case Recover():
+            return "Unsaved Work Found"
         case ExportAs():
             return "Export"
         case Exported():
