@@ -19,8 +19,10 @@ from .frames import PLANES, frame_residual, nearest_frame, slice_range, turned_f
 from .generators import FEWEST_TERMS, FRAMES, SOLIDS, make_frame
 from .intervals import box_bounds, relevant_terms, segment_bounds
 from .plane import Plane
+from .radial import RadialSolution, approximate_radii, radial_solution
 from .rays import first_hits
 from .region import Region, reaches, region
+from .starlike import NotStarShaped, star_centre
 from .symmetry import mirror_axes
 from .terms import Terms, images, rotation_matrix, world_planes
 
@@ -31,9 +33,12 @@ __all__ = [
     "SOLIDS",
     "Curvature",
     "Face",
+    "NotStarShaped",
     "Plane",
+    "RadialSolution",
     "Region",
     "Terms",
+    "approximate_radii",
     "box_bounds",
     "curvature",
     "face",
@@ -52,6 +57,7 @@ __all__ = [
     "near_linear_gradient",
     "near_linear_single",
     "nearest_frame",
+    "radial_solution",
     "reaches",
     "region",
     "relevant_terms",
@@ -60,6 +66,7 @@ __all__ = [
     "shaping_strip",
     "slice_range",
     "srgb_to_linear",
+    "star_centre",
     "term_weights",
     "turned_frame",
     "value",
