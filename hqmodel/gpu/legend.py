@@ -45,7 +45,7 @@ class Legend:
 
     def ticks(self) -> list[tuple[float, str]]:
         """Places on the scale and the numbers that belong there, upwards."""
-        sizes = [self.limit * share for share in (0.01, 0.1, 1.0)]
+        sizes = [self.limit * share for share in (0.1, 1.0)]
         values = [*[-size for size in reversed(sizes)], 0.0, *sizes]
         return [(self.place(value), f"{value:+g}" if value else "0") for value in values]
 
