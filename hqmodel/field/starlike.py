@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .evaluate import log_gradient, log_ratio
+from .evaluate import log_ratio, near_linear_gradient
 from .intervals import box_bounds, box_ranges, term_bounds
 from .powers import over_runs
 from .rays import first_hits
@@ -20,9 +20,11 @@ from .terms import Array, Terms
 _RAYS = 1500
 # How many centres are tried, and how many hidden points of one the next is to see.
 _CENTRES, _SPOTS = 4, 100
+# Newton steps to the surface.
+_STEPS = 4
 _SEED = 1988
 # Boxes along a side in the first look, how often those in doubt are split, and how many of them there may be.
-_COARSE, _ROUNDS, _MOST = 8, 6, 150_000
+_COARSE, _ROUNDS, _MOST = 8, 12, 150_000
 _AT_ONCE = 1 << 20
 # A strip whose h at the centre is no more than this share of its parts is 0 there: a cusp is seen from its own plane alone.
 _ROUNDING = 1e-14
@@ -92,12 +94,16 @@ def _seen(terms: Terms, region: Region) -> tuple[Array, Array]:
 
 
 def _on_surface(terms: Terms, points: Array) -> tuple[Array, Array]:
-    """Points (n, 3) near the surface moved onto it, and its outward unit normals there; without those at kinks."""
-    ratio, slope = log_gradient(terms, points)
-    size = np.linalg.norm(slope, axis=1)
-    smooth = (size > 1e-100) & (size < 1e100)
-    normals = -slope[smooth] / size[smooth, None]
-    return points[smooth] + (ratio[smooth] / size[smooth])[:, None] * normals, normals
+    """Points (n, 3) near the surface moved onto it, and its outward unit normals there; without those that don't get there."""
+    for _ in range(_STEPS):
+        linear, slope = near_linear_gradient(terms, points)
+        size = np.linalg.norm(slope, axis=1, keepdims=True)
+        smooth = (size[:, 0] > 1e-100) & (size[:, 0] < 1e100)
+        size, normals = size[smooth], -slope[smooth] / size[smooth]
+        step = linear[smooth, None] / size
+        points = points[smooth] + step * normals
+    there = np.abs(step[:, 0]) < 1e-6
+    return points[there], normals[there]
 
 
 def _roomiest(points: Array, normals: Array, region: Region) -> Array:
@@ -110,7 +116,7 @@ def _roomiest(points: Array, normals: Array, region: Region) -> Array:
 
 
 def _hidden(terms: Terms, region: Region, centre: Array) -> Array:
-    """Points (n, 3) near the surface that may not face the centre, the most hidden first; none where all of it is proved to."""
+    """Points (n, 3) of the surface that don't face the centre, or are not proved to; none where all of it does."""
     grid = np.stack(np.meshgrid(*[np.arange(_COARSE)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
     side = region.size / _COARSE
     low = region.low + grid * side
@@ -119,16 +125,16 @@ def _hidden(terms: Terms, region: Region, centre: Array) -> Array:
         least, most = box_bounds(terms, low, low + side)
         low = low[(least <= 0) & (most >= 0)]
         low = low[~(_facing(terms, low, low + side, centre) > 0)]
+        points, normals = _on_surface(terms, low + side / 2)
+        facing = np.sum(normals * (points - centre), axis=1)
+        if np.any(facing < 0):
+            worst = np.argsort(facing)[:_SPOTS]
+            return points[worst[facing[worst] < 0]]
         if len(low) * 8 > _MOST or not len(low):
             break
         side = side / 2
         low = (low[:, None] + halves * side).reshape(-1, 3)
-    x = low + side / 2
-    ratio, slope = log_gradient(terms, x)
-    size = np.maximum(np.linalg.norm(slope, axis=1), 1e-300)
-    near = np.abs(ratio) <= size * np.linalg.norm(side)
-    facing = -np.sum((x - centre) * slope, axis=1) / size
-    return np.asarray(x[np.lexsort([facing, ~near])][:_SPOTS])
+    return low[:_SPOTS]
 
 
 def _facing(terms: Terms, low: Array, high: Array, centre: Array) -> Array:
