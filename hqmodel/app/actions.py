@@ -12,7 +12,8 @@ from hqmodel.edit.dimension import FLAT
 from hqmodel.field import region
 from hqmodel.model import VIEWS, Strip
 
-from .asks import About, ChooseFile, ExportAs, ExportSettings, New, Problem, Quit, Shortcuts
+from .asks import About, ChooseFile, ExportAs, ExportSettings, New, Palette, Problem, Quit, Shortcuts
+from .catalogue import catalogue
 from .intents import Edit, Select
 from .view import MODES
 
@@ -227,6 +228,14 @@ def _set_theme(name: str, session: Session) -> None:
     session.keep(session.settings.preferring(theme=name))
 
 
+# Help
+
+
+def _palette(session: Session) -> None:
+    session.release()
+    session.dialogs.append(Palette(catalogue(session, ACTIONS, MENUS)))
+
+
 _KEYS = {"front": "Num 1", "right": "Num 3", "top": "Num 7", "back": "Ctrl+Num 1", "left": "Ctrl+Num 3", "bottom": "Ctrl+Num 7"}
 
 ACTIONS: dict[str, Action] = {
@@ -265,7 +274,8 @@ ACTIONS: dict[str, Action] = {
         f"theme {name}": Action(name.capitalize(), partial(_set_theme, name), (), _always, partial(_in_theme, name))
         for name in THEMES
     },
-    "shortcuts": Action("Shortcuts", lambda s: s.dialogs.append(Shortcuts()), ("F1",)),
+    "palette": Action("Find a Command...", _palette, ("Ctrl+P",)),
+    "shortcuts": Action("Shortcuts", lambda s: s.dialogs.append(Shortcuts(catalogue(s, ACTIONS, MENUS))), ("F1",)),
     "about": Action("About", lambda s: s.dialogs.append(About())),
 }
 
@@ -289,5 +299,5 @@ MENUS: dict[str, tuple[Entry, ...]] = {
         ("Panels", (*(f"panel {name}" for name in PANELS), "reset layout")),
         ("Theme", tuple(f"theme {name}" for name in THEMES)),
     ),
-    "Help": ("shortcuts", "about"),
+    "Help": ("palette", "shortcuts", None, "about"),
 }

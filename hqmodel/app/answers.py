@@ -6,7 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .asks import ChooseFile, Dialog, ExportAs, ExportSettings, Open, Overwrite, Recover, Recovered, Unsaved
+from . import actions
+from .asks import ChooseFile, Dialog, ExportAs, ExportSettings, Open, Overwrite, Palette, Recover, Recovered, Unsaved
 
 if TYPE_CHECKING:
     from .session import Session
@@ -35,6 +36,8 @@ def take(session: Session, dialog: Dialog, value: object) -> None:
             session.save_chosen(path)
         case ChooseFile(purpose="export"), Path() as path:
             _export_to(session, path)
+        case Palette(), str() as name:
+            actions.perform(session, name)
         case ExportAs(), ExportSettings() as settings:
             session.start_export(settings)
 

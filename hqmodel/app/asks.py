@@ -8,9 +8,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from hqmodel.files import Lost
+
+if TYPE_CHECKING:
+    from .catalogue import Command
 
 Purpose = Literal["open", "save", "export"]
 Unit = Literal["mm", "cm", "m", "in"]
@@ -129,8 +132,19 @@ class Exported:
 
 
 @dataclass(frozen=True)
+class Palette:
+    """Every action, to be found by a few letters. Answered by the name of the one to do."""
+
+    commands: tuple[Command, ...]
+    query: str = ""
+    chosen: int = 0
+
+
+@dataclass(frozen=True)
 class Shortcuts:
-    """The list of all shortcuts."""
+    """The list of all shortcuts, and of what the mouse does."""
+
+    commands: tuple[Command, ...]
 
 
 @dataclass(frozen=True)
@@ -138,4 +152,4 @@ class About:
     """What this program is."""
 
 
-Dialog = Unsaved | Overwrite | Recover | ChooseFile | Problem | ExportAs | Exported | Shortcuts | About
+Dialog = Unsaved | Overwrite | Recover | ChooseFile | Problem | ExportAs | Exported | Palette | Shortcuts | About

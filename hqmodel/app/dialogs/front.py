@@ -6,10 +6,10 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
-from ..asks import About, ChooseFile, Dialog, ExportAs, Exported, Overwrite, Problem, Recover, Shortcuts, Unsaved
+from ..asks import About, ChooseFile, Dialog, ExportAs, Exported, Overwrite, Palette, Problem, Recover, Shortcuts, Unsaved
 from ..intents import Answer, Ask, Intent
 from ..session import Session
-from . import about, chooser, exporting, problem, recover, unsaved
+from . import about, chooser, exporting, palette, problem, recover, shortcuts, unsaved
 from .buttons import untouched
 
 _DRAWN: dict[type[Dialog], Callable[[Dialog], list[Intent]]] = {
@@ -20,7 +20,8 @@ _DRAWN: dict[type[Dialog], Callable[[Dialog], list[Intent]]] = {
     Problem: problem.draw,
     ExportAs: exporting.draw,
     Exported: exporting.draw_report,
-    Shortcuts: about.draw_shortcuts,
+    Palette: palette.draw,
+    Shortcuts: shortcuts.draw,
     About: about.draw,
 }
 _FLAGS = imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_saved_settings
@@ -63,6 +64,8 @@ def _title(dialog: Dialog) -> str:
             return "Export"
         case Exported():
             return "Exported"
+        case Palette():
+            return "Commands"
         case Shortcuts():
             return "Shortcuts"
     return "About hqmodel"
