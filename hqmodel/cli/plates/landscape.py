@@ -23,7 +23,9 @@ from .sheet import GROUND, Size
 Array = NDArray[np.float64]
 
 # Squares of land along a side, and how much higher than wide the land is drawn.
-_SQUARES, _STEEP = 88, 0.75
+_SQUARES, _STEEP = 88, 0.7
+# Land no higher than this is not looked for beyond the lowest section.
+_FLAT = 0.003
 _VIEW = Camera(azimuth=24.0, elevation=34.0, orthographic=True)
 _LIGHT = np.array([-0.45, -0.35, 0.82])
 _PLANE, _CURVE = (70, 96, 130, 96), (30, 42, 60)
@@ -33,7 +35,7 @@ _LINE = 0.012
 
 @dataclass(frozen=True, eq=False)
 class Land:
-    """Over the rectangle from low to high (2,): squares from the back to the front, corners (n, 4, 3) and colours (n, 3), 0..255."""
+    """Squares over the rectangle from low to high (2,), the back ones first: corners (n, 4, 3) and colours (n, 3) in 0..255."""
 
     low: Array
     high: Array
@@ -71,15 +73,16 @@ def draw_landscape(land: Land, level: float, section: Outline, size: Size) -> Im
 
 
 def land_of(scene: Scene, low: Array, high: Array) -> Land:
-    """The landscape of the scene's sum over the rectangle from low to high (2,)."""
-    x, y = (np.linspace(a, b, _SQUARES + 1) for a, b in zip(low, high, strict=True))
-    flat = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
+    """The landscape of the scene's sum, over the rectangle from low to high (2,) and as far about it as the land is not flat."""
     terms = replace(Terms.of(scene), level=0.0)
-    ground = np.concatenate([flat, np.zeros((*flat.shape[:2], 1))], axis=-1)
-    nodes = np.concatenate([flat, value(terms, ground)[..., None]], axis=-1)
+    wide = _nodes(terms, low - (high - low), high + (high - low)).reshape(-1, 3)
+    uneven = wide[np.abs(wide[:, 2]) > _FLAT, :2]
+    low, high = np.min([low, np.min(uneven, axis=0)], axis=0), np.max([high, np.max(uneven, axis=0)], axis=0)
+    nodes = _nodes(terms, low, high)
     corners = np.stack([nodes[:-1, :-1], nodes[1:, :-1], nodes[1:, 1:], nodes[:-1, 1:]], axis=2).reshape(-1, 4, 3)
     land = Land(low, high, corners, np.empty(0))
-    normal = np.cross(*((corners[:, a] - corners[:, b]) * [1, 1, land.steep] for a, b in ((2, 0), (3, 1))))
+    steep = np.array([1.0, 1.0, land.steep])
+    normal = np.cross((corners[:, 2] - corners[:, 0]) * steep, (corners[:, 3] - corners[:, 1]) * steep)
     light = np.maximum(normal @ _LIGHT / np.linalg.norm(normal, axis=1) / np.linalg.norm(_LIGHT), 0.0)
     middle = np.mean(corners, axis=1)
     own = mixed_colors(scene, terms, middle * [1, 1, 0]) * 255
@@ -87,6 +90,13 @@ def land_of(scene: Scene, low: Array, high: Array) -> Land:
     colors = (np.array(GROUND) * (1 - risen) * 0.98 + own * risen) * (0.45 + 0.6 * light[:, None])
     order = np.argsort(middle[:, :2] @ _VIEW.axes()[2, :2], kind="stable")
     return replace(land, corners=corners[order], colors=np.clip(colors[order], 0, 255))
+
+
+def _nodes(terms: Terms, low: Array, high: Array) -> Array:
+    """Points (n, n, 3) of the land over a grid."""
+    x, y = (np.linspace(a, b, _SQUARES + 1) for a, b in zip(low, high, strict=True))
+    ground = np.stack([*np.meshgrid(x, y, indexing="ij"), np.zeros((len(x), len(y)))], axis=-1)
+    return np.concatenate([ground[..., :2], value(terms, ground)[..., None]], axis=-1)
 
 
 def _pieces(land: Land, level: float, below: bool) -> Iterator[tuple[Array, tuple[int, ...]]]:

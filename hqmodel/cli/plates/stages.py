@@ -24,8 +24,6 @@ from .sheet import WIDE, Panel, Size
 _MODE, _SAMPLES = "clay", 8
 # Bodies of which one is smaller than this share of another are each shown as large as there is room.
 _ALIKE = 0.75
-# The land that is shown about the lowest section, as a share of that.
-_ROOM = 0.22
 # How near outlines are to the true ones, as a share of their size: less than a pixel.
 _PRECISION = 1e-4
 
@@ -50,8 +48,7 @@ def panels(scene: Scene, ctx: moderngl.Context, bands: bool = False) -> list[lis
     ]
     if not levels:
         return [sections]
-    room = _ROOM * np.max(high - low)
-    land = land_of(scene, low - room, high + room)
+    land = land_of(scene, low, high)
     cut = [partial(draw_landscape, land, stage.level, found) for stage, found in zip(stages, outlines, strict=True)]
     return [[Panel(draw, (), aspect) for draw in cut], sections]
 
