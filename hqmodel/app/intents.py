@@ -8,6 +8,9 @@ from dataclasses import dataclass
 from hqmodel.model import Camera, Scene
 
 from .asks import Departure, Dialog
+from .tools.gesture import Gesture, Held
+from .tools.kit import Kit
+from .view import View
 
 Location = tuple[str | int, ...]
 
@@ -32,6 +35,47 @@ class Put:
 @dataclass(frozen=True)
 class Release:
     """Whatever was grabbed has been let go."""
+
+
+@dataclass(frozen=True)
+class Take:
+    """The hand takes hold of something in the viewport: all until it lets go is one undo step."""
+
+    gesture: Gesture
+
+
+@dataclass(frozen=True)
+class Pull:
+    """What is held has come so far."""
+
+    held: Held
+
+
+@dataclass(frozen=True)
+class Show:
+    """The scene as the drag under way has it now."""
+
+    scene: Scene
+
+
+@dataclass(frozen=True)
+class Drop:
+    """Whatever is held is let go of, and everything is as it was before."""
+
+
+@dataclass(frozen=True)
+class Equip:
+    """Another tool in hand, or the tool set otherwise."""
+
+    kit: Kit
+
+
+@dataclass(frozen=True)
+class Choose:
+    """These shapes selected, and no others unless `add`."""
+
+    shapes: tuple[int, ...]
+    add: bool = False
 
 
 @dataclass(frozen=True)
@@ -64,6 +108,13 @@ class Look:
     """The viewport's camera moved."""
 
     camera: Camera
+
+
+@dataclass(frozen=True)
+class See:
+    """Shown otherwise, or from elsewhere."""
+
+    view: View
 
 
 @dataclass(frozen=True)
@@ -101,4 +152,5 @@ class Adjust:
     dialog: Dialog
 
 
-Intent = Grab | Put | Release | Reset | Edit | Select | Look | Resize | Do | Ask | Answer | Adjust | Departure
+Handling = Take | Pull | Show | Drop | Equip | Choose
+Intent = Grab | Put | Release | Reset | Edit | Select | Look | See | Resize | Do | Ask | Answer | Adjust | Departure | Handling

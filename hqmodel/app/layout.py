@@ -23,6 +23,7 @@ _SPLITS = (
     ("LeftSpace", "LeftLowerSpace", imgui.Dir.down, 0.55),
 )
 _PLAIN = imgui.internal.DockNodeFlagsPrivate_.no_window_menu_button | imgui.internal.DockNodeFlagsPrivate_.no_close_button
+_FIXED = imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse | imgui.WindowFlags_.no_move
 _BARE = imgui.internal.DockNodeFlagsPrivate_.no_tab_bar
 
 
@@ -48,7 +49,7 @@ def _bare(name: str, draw: Callable[[], None]) -> None:
     kind.dock_node_flags_override_set = _BARE
     imgui.set_next_window_class(kind)
     imgui.push_style_var(imgui.StyleVar_.window_padding, (0.0, 0.0))
-    shown, _ = imgui.begin(name, None, imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse)
+    shown, _ = imgui.begin(name, None, _FIXED)
     imgui.pop_style_var()
     if shown:
         draw()

@@ -16,9 +16,33 @@ from . import actions, answers
 from .asks import ChooseFile, Departure, Dialog, ExportSettings, New, Open, Overwrite, Problem, Quit, Recover, Unsaved
 from .document import Document
 from .export import ExportJob
-from .intents import Adjust, Answer, Ask, Do, Edit, Grab, Intent, Location, Look, Put, Release, Reset, Resize, Select
+from .intents import (
+    Adjust,
+    Answer,
+    Ask,
+    Choose,
+    Do,
+    Drop,
+    Edit,
+    Equip,
+    Grab,
+    Intent,
+    Location,
+    Look,
+    Pull,
+    Put,
+    Release,
+    Reset,
+    Resize,
+    See,
+    Select,
+    Show,
+    Take,
+)
 from .recovery import Recovery, recovered, said
 from .selection import Selection
+from .tools.gesture import Held
+from .tools.kit import Kit
 from .view import View, restored
 
 
@@ -44,6 +68,9 @@ class Session:
         self.hidden_panels: set[str] = set()
         self.layout_wanted = False
         self.finished = False
+        self.kit = Kit()
+        self.held: Held | None = None
+        self.wanted_gesture = ""
         self.message = ""
         self.failed = False
         self._after_saving: Departure | None = None
@@ -101,6 +128,21 @@ class Session:
                 self._change(intent.label, lambda scene: edit.put(scene, intent.path, intent.value))
             case Release():
                 self.release()
+            case Take(gesture):
+                self.release()
+                self.history.begin(gesture.label)
+                self.held = Held(gesture)
+            case Pull(held):
+                self.held = held
+                self._change(held.gesture.label, lambda _: held.scene)
+            case Show(scene):
+                self._change("", lambda _: scene)
+            case Drop():
+                self.drop()
+            case Equip(kit):
+                self.kit = kit
+            case Choose(shapes, add):
+                self.selection = self.selection.chosen(shapes, add)
             case Reset():
                 self._reset(intent)
             case Edit(label, change):
@@ -110,6 +152,8 @@ class Session:
                 self.selection = self.selection.picked(shape, strip, add)
             case Look(camera):
                 self.look(camera)
+            case See(view):
+                self.view = view
             case Resize(size):
                 self._resize(size)
             case Do(action):
@@ -140,7 +184,8 @@ class Session:
     # Edits
 
     def release(self) -> None:
-        """The control that was held is let go: its drag becomes one step."""
+        """What was held is let go: its drag becomes one step."""
+        self.held = None
         if self.history.dragging:
             label, steps = self.history.undo_label, len(self.history.labels)
             self.history.commit()
@@ -149,7 +194,14 @@ class Session:
             if changed:
                 self.say(label)
 
+    def drop(self) -> None:
+        """What was held is let go, and everything put back."""
+        self.history.cancel()
+        self.held = None
+        self.say("")
+
     def undo(self) -> None:
+        self.held = None
         if self.history.can_undo:
             label = self.history.undo_label
             self.history.undo()

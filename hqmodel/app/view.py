@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
+from hqmodel.field import Plane
 from hqmodel.model import Camera, remembered
 
 MODES = ("clay", "porcelain", "metal", "studio", "normals", "curvature", "strips", "depth")
@@ -13,10 +14,15 @@ MODES = ("clay", "porcelain", "metal", "studio", "normals", "curvature", "strips
 
 @dataclass(frozen=True)
 class View:
-    """The camera and what the surface is coloured by."""
+    """The camera and what the surface is coloured by.
+
+    `cut`: the plane of a section view; what is on the side of its normal is not shown. `ghosts`: whether carving shapes are.
+    """
 
     camera: Camera = field(default_factory=Camera)
     mode: str = MODES[0]
+    cut: Plane | None = None
+    ghosts: bool = True
 
     def moved(self, camera: Camera) -> View:
         """The same seen from elsewhere."""

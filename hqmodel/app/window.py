@@ -13,6 +13,7 @@ from imgui_bundle import hello_imgui, imgui
 
 from hqmodel import files
 from hqmodel.files import settings_folder
+from hqmodel.gpu import Legend, Seen
 
 from . import layout, native, theme
 from .asks import ChooseFile, Open, Quit
@@ -20,6 +21,7 @@ from .canvas import Canvas
 from .dialogs import front
 from .form import Memory
 from .guard import Guard
+from .hands.hand import Hand
 from .intents import Intent, Release
 from .panels import menus, outliner, presets, properties, scene, slice_bar, status, viewport
 from .session import Session
@@ -46,7 +48,7 @@ class Window:
         self._memory = Memory()
         self._tree = outliner.Tree()
         self._shelf = presets.Shelf(files.builtin())
-        self._hand = viewport.Hand()
+        self.hand = Hand()
         self.chooser = native.NativeChooser() if native_dialogs and native.available() else None
         self._shown = layout.Shown()
         self._dropped: list[Path] = []
@@ -110,7 +112,7 @@ class Window:
         return {
             "Outliner": lambda: outliner.draw(session, self._tree),
             "Presets": lambda: presets.draw(session, self._shelf, self.thumbnails.texture),
-            "Viewport": lambda: viewport.draw(session, self._hand, self),
+            "Viewport": lambda: viewport.draw(session, self.hand, self),
             "Properties": lambda: properties.draw(session, memory),
             "Scene": lambda: scene.draw(session, memory),
             "Slice": lambda: slice_bar.draw(session, memory),
@@ -159,7 +161,8 @@ class Window:
     def _after(self) -> None:
         """Behind all panels: dialogs, the end of drags, and whether another frame is needed."""
         self.guard.run("Dialog", self._dialog)
-        if self.session.history.dragging and not imgui.is_any_item_active():
+        busy = imgui.is_any_item_active() or self.session.held is not None or self.hand.gizmo.before is not None
+        if self.session.history.dragging and not busy:
             self.session.apply([Release()])
         better = self._canvas.unfinished and self.session.refining
         if self.thumbnails.waiting and not better and self._spare():
@@ -194,13 +197,17 @@ class Window:
 
     def draw(self, size: tuple[int, int]) -> int:
         session = self.session
-        texture = self._canvas.draw(session.scene, session.view, size, self._spare() if session.refining else 0.0)
+        spare = self._spare() if session.refining else 0.0
+        texture = self._canvas.draw(session.scene, session.view, size, spare, self.hand.lit)
         session.located(session.scene, self._canvas.region)
         return texture
 
-    def shape_at(self, size: tuple[int, int], pixel: tuple[int, int]) -> int | None:
-        seen = self._canvas.pick(self.session.view.camera, size, pixel)
-        return None if seen is None else seen.shape
+    def seen(self, size: tuple[int, int], pixel: tuple[int, int]) -> Seen | None:
+        return self._canvas.pick(self.session.view, size, pixel)
+
+    @property
+    def legend(self) -> Legend:
+        return self._canvas.legend
 
     def _thumbnail(self) -> Iterable[Intent]:
         self.thumbnails.work()

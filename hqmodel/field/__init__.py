@@ -22,6 +22,7 @@ from .plane import Plane
 from .radial import RadialSolution, approximate_radii, radial_solution
 from .rays import first_hits
 from .region import Region, reaches, region
+from .solvers import Evolved, Lattice, lattice_search, normal_evolution
 from .starlike import NotStarShaped, star_centre
 from .symmetry import mirror_axes
 from .terms import Terms, images, rotation_matrix, world_planes
@@ -32,7 +33,9 @@ __all__ = [
     "PLANES",
     "SOLIDS",
     "Curvature",
+    "Evolved",
     "Face",
+    "Lattice",
     "NotStarShaped",
     "Plane",
     "RadialSolution",
@@ -47,6 +50,7 @@ __all__ = [
     "gradient",
     "image_at",
     "images",
+    "lattice_search",
     "linear_to_srgb",
     "log_gradient",
     "log_ratio",
@@ -57,6 +61,7 @@ __all__ = [
     "near_linear_gradient",
     "near_linear_single",
     "nearest_frame",
+    "normal_evolution",
     "radial_solution",
     "reaches",
     "region",

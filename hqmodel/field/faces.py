@@ -30,8 +30,8 @@ class Face:
     thickness: float
 
 
-def face(shape: Shape, t: float, strip: int, side: int, image: ArrayLike = (1.0, 1.0, 1.0)) -> Face:
-    """A strip's plane h = side (1 or -1) at the slice t, in the mirror image of these signs (3,).
+def face(shape: Shape, t: float, strip: int, side: int, image: ArrayLike = (1.0, 1.0, 1.0), flat: bool = False) -> Face:
+    """A strip's plane h = side (1 or -1) at the slice t, in the mirror image of these signs (3,); when flat, at z = 0 alone.
 
     The polytope is |h_a| <= 1 for all strips that close the shape (eq. 13); the hyperbolic ones bound nothing.
     """
@@ -44,6 +44,8 @@ def face(shape: Shape, t: float, strip: int, side: int, image: ArrayLike = (1.0,
     for a in others:
         for sign in (1.0, -1.0):
             polygon = _clipped(polygon, sign * normals[a], 1.0 - sign * offsets[a])
+    for z in (1.0, -1.0) if flat else ():
+        polygon = _clipped(polygon, np.array([0.0, 0.0, z]), 0.0)
     middle = polygon.mean(axis=0) if len(polygon) else out * distance
     signs = np.asarray(image, dtype=float)
     return Face(out * signs, middle * signs, polygon * signs, 2.0 / length)

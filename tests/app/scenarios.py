@@ -335,7 +335,7 @@ def the_viewport(hands: Hands) -> None:
     orbited = session.view.camera
     assert orbited.azimuth != start.azimuth
     assert orbited.target == start.target
-    ctx.mouse_move("//Viewport/view")
+    ctx.mouse_move_to_pos((270, 480))  # beside the body
     ctx.mouse_drag_with_delta((-40, 10), imgui.MouseButton_.left)
     hands.settle()
     assert session.view.camera.azimuth != orbited.azimuth
@@ -358,7 +358,7 @@ def the_viewport(hands: Hands) -> None:
     ctx.mouse_click()
     hands.settle()
     assert session.selection.active is not None
-    ctx.mouse_move_to_pos((270, 40))
+    ctx.mouse_move_to_pos((270, 480))
     ctx.mouse_click()
     hands.settle()
     assert session.selection.active is None

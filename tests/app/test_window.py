@@ -138,9 +138,9 @@ def test_from_outside_a_drag_turns_the_view_and_keys_work(display: str, tmp_path
         window.until(lambda: window.title() == "outside* - hqmodel")
         window.tool("key", "ctrl+z")
         window.until(lambda: window.title() == "outside - hqmodel")
-        window.tool("mousemove", "600", "400", "mousedown", "1")
+        window.tool("mousemove", "600", "600", "mousedown", "1")  # beside the body
         for x in range(600, 700, 20):
-            window.tool("mousemove", str(x), "400")
+            window.tool("mousemove", str(x), "600")
             time.sleep(0.1)
         window.tool("mouseup", "1")
         window.tool("key", "ctrl+s")
