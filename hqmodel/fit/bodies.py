@@ -64,6 +64,11 @@ class Bodies:
         """(K,) each body's first strip."""
         return np.searchsorted(self.owner, np.arange(len(self))).astype(np.intp)
 
+    @cached_property
+    def summed(self) -> Array:
+        """(K, S) what sums the strips of each body: ones at its own."""
+        return (self.owner == np.arange(len(self))[:, None]).astype(float)
+
     @property
     def size(self) -> int:
         """How many numbers are free: those of `moved`."""
@@ -109,11 +114,11 @@ class Bodies:
         by_normal = by_normal.reshape(count, 3, -1)
         first, further = self._frames()
         m, middle = self.normal[first], self.middles
-        turned = np.cross(np.eye(3), m[:, :, None])  # (K, 3 strips, 3 turns, 3)
-        by_turn = np.einsum("katj,kajn->ktn", turned, by_normal[first])
-        by_turn -= np.einsum("katj,kj,kan->ktn", turned, middle, by_offset[first])
-        by_middle = -np.einsum("kaj,kan->kjn", m, by_offset[first])
-        by_width = -np.einsum("kaj,kajn->kan", m, by_normal[first]) - self.offset[first][..., None] * by_offset[first]
+        turned = np.cross(np.eye(3), m[:, :, None]).swapaxes(1, 2)  # (K, 3 turns, 3 strips, 3)
+        by_turn = turned.reshape(-1, 3, 9) @ by_normal[first].reshape(len(self), 9, -1)
+        by_turn -= np.einsum("ktaj,kj->kta", turned, middle) @ by_offset[first]
+        by_middle = -m.swapaxes(1, 2) @ by_offset[first]
+        by_width = -(m[:, :, None] @ by_normal[first])[:, :, 0] - self.offset[first][..., None] * by_offset[first]
         frames = np.concatenate([by_middle, by_turn, by_width], axis=1).reshape(9 * len(self), -1)
         return np.concatenate([frames, by_normal[further].reshape(3 * len(further), rows.shape[1]), by_offset[further], rest])
 

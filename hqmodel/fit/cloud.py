@@ -57,6 +57,12 @@ class Cloud:
         return float(np.median(cKDTree(self.points).query(self.points[:2000], 2)[0][:, 1]))
 
     @cached_property
+    def span(self) -> float:
+        """How far outliers lie from any surface: they fill the cloud's box, so many times as large as it has area."""
+        x, y, z = np.maximum(np.ptp(self.points @ self.frame.rotation, axis=0), _FLAT)
+        return float(x * y * z / (2 * (x * y + y * z + z * x)))
+
+    @cached_property
     def trusted(self) -> NDArray[np.bool_]:
         """(N,) which points have company: a surface's points do, outliers seldom."""
         reach = neighbours(self.points)[0][:, -1]

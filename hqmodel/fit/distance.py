@@ -14,8 +14,8 @@ from .bodies import FLIP, Array, Bodies
 _NEAR = 1e-7
 # Steps to a foot after the first, and how short the last is to be.
 _STEPS, _THERE = 5, 1e-3
-# Newton's steps to the gauge.
-_ROUNDS = 8
+# Newton's steps to the gauge, and how short the last is: its square, times an exponent, is what is still missing.
+_ROUNDS, _SHORT = 8, 1e-5
 # ln of the largest |h|^gamma.
 _MOST = 300.0
 # No point is further from the surface than the cloud is long.
@@ -101,7 +101,7 @@ class _Gauge:
             total = np.sum(power, axis=0)
             step = np.log(total) * total / np.sum(gamma * power, axis=0)
             log_gauge += step
-            if np.max(step) < 1e-9:
+            if np.max(step) < _SHORT:
                 break
         self.log_gauge = log_gauge
         self.pull = gamma * np.exp(gamma * (log_h - log_gauge))
@@ -125,7 +125,7 @@ class _Blend:
         size = np.maximum(np.abs(h), _NEAR)
         self.log_h = np.log(size)
         self.power = np.exp(np.minimum(bodies.gamma[:, None] * self.log_h, _MOST))
-        total = np.add.reduceat(self.power, bodies.start, axis=0)
+        total = bodies.summed @ self.power
         self.t = bodies.hardness[:, None] * (1.0 - total)
         ratio = self._weigh()
         pull = self.share * bodies.hardness[:, None]
@@ -153,7 +153,7 @@ class _Blend:
         bodies = self.bodies
         adds = bodies.sign > 0
         hard = np.sum(pull[adds], axis=0)
-        rate = np.add.reduceat(self.power * bodies.gamma[:, None], bodies.start, axis=0) / np.maximum(total, 1e-300)
+        rate = (bodies.summed * bodies.gamma) @ self.power / np.maximum(total, 1e-300)
         steep = np.sum((pull * rate)[adds], axis=0) / hard
         h_sum = np.maximum(1.0 - ratio / hard, 1e-9)
         with np.errstate(over="ignore"):

@@ -21,8 +21,12 @@ _LIFT = 0.01
 _HULL_POINTS = 300
 # How far beyond the hull they lie, and how deep in the body one has to be to count, in the cloud's deviations.
 _BEYOND, _SOFT = 0.1, 0.3
-# Starts that are refined, and strips that are tried each time.
-_BEST, _TRIED = 5, 4
+# Steps that all starts are tried by, and then the better third; starts that are refined, and those that strips are added to.
+_FIRST, _SECOND, _BEST, _GROWN = 4, 10, 5, 3
+# A deviation so many times the least is as good as it gets.
+_FOUND = 1.2
+# Strips that are tried each time.
+_TRIED = 4
 # Normals with such a cosine between them are tried once.
 _SAME = 0.9
 # Exponents that a new strip begins with.
@@ -45,7 +49,7 @@ def evidence_of(cloud: Cloud, count: int, rng: np.random.Generator) -> Evidence:
     part = cloud.part(count)
     known = cloud.part(4 * MIDDLE)
     hull, thickness = beyond_hull(known.points[known.trusted], _BEYOND, _HULL_POINTS, rng)
-    return Evidence(*lifted(part), outside=hull, softness=_SOFT * thickness)
+    return Evidence(*lifted(part), outside=hull, softness=_SOFT * thickness, span=cloud.span)
 
 
 def lifted(cloud: Cloud) -> tuple[Array, Array]:
@@ -56,67 +60,83 @@ def lifted(cloud: Cloud) -> tuple[Array, Array]:
     return np.concatenate([cloud.points, cloud.points + _LIFT * cloud.normals]), np.concatenate([away, away + _LIFT])
 
 
+@dataclass(frozen=True, eq=False)
+class _Task:
+    """What is fitted, on how many points, and the limits."""
+
+    cloud: Cloud
+    coarse: Evidence
+    middle: Evidence
+    strips: int
+    floor: float
+    rng: np.random.Generator
+    tell: Tell
+
+
 def lone_body(cloud: Cloud, strips: int, floor: float, rng: np.random.Generator, tell: Tell) -> tuple[Solution, list[Step]]:
     """The hyperquadric of at most so many strips that fits the cloud best, and how it came about.
 
     A strip stays when it lowers Schwarz's criterion, n ln(likelihood) against 5 numbers more, on a sample of `MIDDLE` points.
     """
     coarse, middle = (evidence_of(cloud, count, rng) for count in (COARSE, MIDDLE))
-    best = _best_start(cloud, coarse, middle, strips, floor, rng, tell)
-    steps = [Step(f"{len(best.bodies.owner)} strips to begin with", 0.0)]
-    best = _grown(cloud, middle, best, strips, floor, steps, tell)
-    best = _pruned(middle, best, floor, steps, tell)
-    tell(0.9, "Refining")
-    return solved(best.bodies, evidence_of(cloud, FINE, rng), floor, 40), steps
+    task = _Task(cloud, coarse, middle, strips, floor, rng, tell)
+    ends = []
+    for number, start in enumerate(_best_starts(task)):
+        tell(0.5 + 0.4 * number / _GROWN, "Adding strips")
+        ends.append(_finished(task, start))
+        if ends[-1][0].noise.sigma < _FOUND * floor:
+            break
+    best, steps = min(ends, key=lambda end: _criterion(end[0], middle))
+    return solved(best.bodies, evidence_of(cloud, FINE, rng), floor, 40, pause=lambda: tell(0.9, "Refining")), steps
 
 
-def _best_start(
-    cloud: Cloud, coarse: Evidence, middle: Evidence, strips: int, floor: float, rng: np.random.Generator, tell: Tell
-) -> Solution:
-    known = cloud.part(2 * MIDDLE)
+def _best_starts(task: _Task) -> list[Solution]:
+    """The few best of many starts, refined."""
+    known = task.cloud.part(2 * MIDDLE)
     begun = []
-    every = starts(known.points[known.trusted], known.normals[known.trusted], strips, rng)
+    every = starts(known.points[known.trusted], known.normals[known.trusted], task.strips, task.rng)
     for number, bodies in enumerate(every):
-        tell(0.4 * number / len(every), "Trying starts")
-        begun.append(solved(bodies, coarse, floor, 12))
-    begun.sort(key=lambda solution: _criterion(solution, coarse))
+        task.tell(0.4 * number / len(every), "Trying starts")
+        begun.append(solved(bodies, task.coarse, task.floor, _FIRST))
+    begun.sort(key=lambda solution: _criterion(solution, task.coarse))
+    begun = [solved(start.bodies, task.coarse, task.floor, _SECOND, start.noise) for start in begun[: len(begun) // 3]]
+    begun.sort(key=lambda solution: _criterion(solution, task.coarse))
     refined = []
     for number, solution in enumerate(begun[:_BEST]):
-        tell(0.4 + 0.1 * number / _BEST, "Refining starts")
-        refined.append(solved(solution.bodies, middle, floor, 25))
-    return min(refined, key=lambda solution: _criterion(solution, middle))
+        task.tell(0.4 + 0.1 * number / _BEST, "Refining starts")
+        refined.append(solved(solution.bodies, task.middle, task.floor, 25))
+    found = {round(_criterion(solution, task.middle)): solution for solution in refined}  # several come to the same
+    return [found[criterion] for criterion in sorted(found)[:_GROWN]]
 
 
-def _grown(cloud: Cloud, middle: Evidence, best: Solution, strips: int, floor: float, steps: list[Step], tell: Tell) -> Solution:
-    """With strips added as long as they earn their place."""
-    part = cloud.part(MIDDLE)
-    while (count := len(best.bodies.owner)) < strips:
-        tell(0.5 + 0.3 * count / strips, "Adding strips")
-        tried = [solved(bodies, middle, floor, 12) for bodies in with_one_more(part.only(part.trusted), best)]
-        if not tried:
-            break
-        trial = min(tried, key=lambda solution: _criterion(solution, middle))
-        trial = solved(trial.bodies, middle, floor, 25, trial.noise)
-        gain = _criterion(best, middle) - _criterion(trial, middle)
+def _finished(task: _Task, start: Solution) -> tuple[Solution, list[Step]]:
+    """With strips added as long as they earn their place, and without those that can go."""
+    best, steps = start, [Step(f"{len(start.bodies.owner)} strips to begin with", 0.0)]
+    while (count := len(best.bodies.owner)) < task.strips and (trial := _with_best_strip(task, best)):
+        gain = _criterion(best, task.middle) - _criterion(trial, task.middle)
         if gain <= 0:
             break
         best = trial
         steps.append(Step(f"strip {count + 1} added", gain))
-    return best
-
-
-def _pruned(middle: Evidence, best: Solution, floor: float, steps: list[Step], tell: Tell) -> Solution:
-    """Without strips that can go."""
-    strip = len(best.bodies.owner) - 1
-    while strip >= 0 and len(best.bodies.owner) > 3:
-        tell(0.85, "Dropping strips")
-        trial = solved(best.bodies.without_strip(strip), middle, floor, 15, best.noise)
-        gain = _criterion(best, middle) - _criterion(trial, middle)
+    for strip in reversed(range(len(best.bodies.owner))):
+        if len(best.bodies.owner) == 3:
+            break
+        trial = solved(best.bodies.without_strip(strip), task.middle, task.floor, 15, best.noise)
+        gain = _criterion(best, task.middle) - _criterion(trial, task.middle)
         if gain > 0:
             best = trial
             steps.append(Step("strip dropped", gain))
-        strip -= 1
-    return best
+    return best, steps
+
+
+def _with_best_strip(task: _Task, best: Solution) -> Solution | None:
+    """The best of several ways to add a strip, if there are any."""
+    part = task.cloud.part(MIDDLE)
+    tried = [solved(bodies, task.middle, task.floor, 12) for bodies in with_one_more(part.only(part.trusted), best)]
+    if not tried:
+        return None
+    trial = min(tried, key=lambda solution: _criterion(solution, task.middle))
+    return solved(trial.bodies, task.middle, task.floor, 25, trial.noise)
 
 
 def with_one_more(cloud: Cloud, solution: Solution, body: int = 0) -> list[Bodies]:

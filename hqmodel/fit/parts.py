@@ -61,7 +61,7 @@ class _Task:
         flips = (self.outside * FLIP, self.inside * FLIP) if self.symmetric else (self.outside[:0], self.inside[:0])
         outside, inside = (np.concatenate(pair) for pair in zip((self.outside, self.inside), flips, strict=True))
         surface, away = lifted(sample)
-        return Evidence(surface, away, outside, inside, _SOFT, _DOUBT, _OUTLIERS)
+        return Evidence(surface, away, outside, inside, _SOFT, _DOUBT, _OUTLIERS, self.cloud.span)
 
 
 def several_bodies(

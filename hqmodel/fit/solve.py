@@ -6,6 +6,7 @@ estimated along the way (as in Liu et al., CVPR 2022, and as usual with mixtures
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import log, pi, sqrt
 
@@ -14,8 +15,6 @@ import numpy as np
 from .bodies import Array, Bodies
 from .distance import Measured, distances
 
-# One outlier's share of a unit of distance: outliers fill the cloud's box, volume against area of what fits in it.
-_SPAN = 0.1
 _FEWEST = 1e-3
 # The share of the diagonal that is added to it at first, and steps that are tried in a round.
 _DAMPING, _TRIALS = 1e-2, 6
@@ -32,7 +31,7 @@ class Evidence:
 
     `away` (N,) is where a surface point should lie instead of at distance 0. A point on the wrong side by more than about the
     `softness`, or the noise if that is more, costs the likelihood exp(-doubt), and no more however deep it lies. `outliers` is
-    the largest share there may be.
+    the largest share there may be; each is anywhere in a `span` of distance.
     """
 
     surface: Array
@@ -42,6 +41,7 @@ class Evidence:
     softness: float = 0.02
     doubt: float = 0.1
     outliers: float = 0.6
+    span: float = 0.1
 
     def measured(self, bodies: Bodies) -> Measured:
         """The distances of all points, surface, outside and inside."""
@@ -70,19 +70,20 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Noise:
-    """The surface points' standard deviation, and the share of outliers."""
+    """The surface points' standard deviation, the share of outliers, and the span of distance that one may be anywhere in."""
 
     sigma: float
-    outliers: float = 0.05
+    outliers: float
+    span: float
 
     def weights(self, miss: Array) -> Array:
         """(N,) how likely each point is one of the surface."""
         near = self._near(miss)
-        return near / (near + self.outliers / _SPAN)
+        return near / (near + self.outliers / self.span)
 
     def cost(self, miss: Array) -> float:
         """The negative log-likelihood of the distances."""
-        return -float(np.sum(np.log(self._near(miss) + self.outliers / _SPAN)))
+        return -float(np.sum(np.log(self._near(miss) + self.outliers / self.span)))
 
     def updated(self, miss: Array, floor: float, most: float) -> Noise:
         """The mixture that explains the distances better, its deviation at least `floor`, its outliers at `most`."""
@@ -90,7 +91,7 @@ class Noise:
         total = float(np.sum(w))
         sigma = sqrt(float(np.sum(w * miss**2)) / max(total, 1e-9))
         outliers = 1 - total / len(miss)
-        return Noise(max(sigma, floor), min(max(outliers, _FEWEST), most))
+        return Noise(max(sigma, floor), min(max(outliers, _FEWEST), most), self.span)
 
     def _near(self, miss: Array) -> Array:
         return (1 - self.outliers) / (sqrt(2 * pi) * self.sigma) * np.exp(-0.5 * (miss / self.sigma) ** 2)
@@ -112,13 +113,20 @@ class Solution:
 def first_noise(bodies: Bodies, evidence: Evidence, floor: float) -> Noise:
     """The mixture to begin with: as wide as most distances are, so that nothing is taken for an outlier too soon."""
     miss = np.abs(distances(bodies, evidence.surface) - evidence.away)
-    return Noise(max(float(np.quantile(miss, 0.7)), _WIDE, floor), min(0.05, evidence.outliers))
+    return Noise(max(float(np.quantile(miss, 0.7)), _WIDE, floor), min(0.05, evidence.outliers), evidence.span)
 
 
-def solved(bodies: Bodies, evidence: Evidence, floor: float, rounds: int, noise: Noise | None = None) -> Solution:
+def solved(
+    bodies: Bodies,
+    evidence: Evidence,
+    floor: float,
+    rounds: int,
+    noise: Noise | None = None,
+    pause: Callable[[], None] | None = None,
+) -> Solution:
     """The bodies moved, by at most so many steps, to where the evidence is most likely.
 
-    `floor` is the deviation below which nothing is to be gained.
+    `floor` is the deviation below which nothing is to be gained. `pause` is called before each step; what it raises ends it all.
     """
     noise = first_noise(bodies, evidence, floor) if noise is None else noise
     count = len(evidence.surface)
@@ -126,6 +134,8 @@ def solved(bodies: Bodies, evidence: Evidence, floor: float, rounds: int, noise:
     measured = evidence.measured(bodies)
     miss = evidence.misses(measured.distance)
     for _ in range(rounds):
+        if pause:
+            pause()
         noise = noise.updated(miss[:count], floor, evidence.outliers)
         cost = evidence.cost(noise, miss)
         rows = measured.rows()
