@@ -92,6 +92,9 @@ void main()
     if (!hit)
         return;
     vec3 x = ray.origin + (distance - enter) * ray.direction;
+#ifdef CELLS
+    enter_cell(cell_at(x));
+#endif
     Touch touch = touch_at(x);
     vec3 normal = touch.normal;
     bool capped = march.w == INSIDE && enter > 0.0 && (region_cut != 0 || in_cut(x));

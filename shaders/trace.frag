@@ -54,11 +54,10 @@ void main()
 {
     ivec2 at = ivec2(gl_FragCoord.xy);
     Ray ray = this_ray(at);
-    March march = begin_march(ray);
-    if (fresh == 0) {
-        vec4 before = texelFetch(state, at, 0);
-        march = March(before.x, before.y, before.z, before.w);
-    }
+    vec4 before = texelFetch(state, at, 0);
+    March march = March(before.x, before.y, before.z, before.w);
+    if (fresh != 0)
+        march = begin_march(ray);
     march_some(ray, steps, march);
     march_state = vec4(march.t, march.dt, march.far, march.phase);
 }

@@ -87,7 +87,7 @@ class Studio:
     def _look(self, memory: SceneMemory, here: Rectangle, uniforms: dict[str, Any], surface: Target) -> None:
         """Find the surfaces that the camera sees."""
         state = self._trace("camera", 0, memory, here, uniforms)
-        defines = [name for name in memory.defines if name in ("GROUPS", "HYPERBOLIC")]
+        defines = [name for name in memory.defines if name in ("GROUPS", "HYPERBOLIC", "CELLS")]
         if uniforms["mode"] == MODES.index("curvature"):
             defines.append("CURVATURE")
         shared_pass(self.ctx, "surface.frag", tuple(defines)).draw(surface, here, uniforms, {"state": state}, memory)
