@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 # Cells for each term that has an end, and most along a side.
-_PER_TERM, _MOST = 12, 64
+_PER_TERM, _MOST = 12, 256
 # How far, in the unit frame, a cell's list reaches beyond its borders: more than march.glsl oversteps them by.
 _WIDER = 5e-5
 
