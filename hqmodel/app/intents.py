@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from hqmodel.edit.animation import Animation
 from hqmodel.model import Camera, Scene
 
 from .asks import Departure, Dialog
@@ -125,6 +126,20 @@ class Resize:
 
 
 @dataclass(frozen=True)
+class Play:
+    """An animation shown, from a moment on (see `Player`), or that moment alone; nothing of the scene changes."""
+
+    animation: Animation
+    share: float | None = None
+    running: bool = True
+
+
+@dataclass(frozen=True)
+class Stop:
+    """No animation is shown any more."""
+
+
+@dataclass(frozen=True)
 class Do:
     """An action of the table, by its id."""
 
@@ -152,5 +167,5 @@ class Adjust:
     dialog: Dialog
 
 
-Handling = Take | Pull | Show | Drop | Equip | Choose
+Handling = Take | Pull | Show | Drop | Equip | Choose | Play | Stop
 Intent = Grab | Put | Release | Reset | Edit | Select | Look | See | Resize | Do | Ask | Answer | Adjust | Departure | Handling

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from time import monotonic
 
 from hqmodel import edit, files
 from hqmodel.field import Region, region
@@ -29,6 +30,7 @@ from .intents import (
     Intent,
     Location,
     Look,
+    Play,
     Pull,
     Put,
     Release,
@@ -37,8 +39,10 @@ from .intents import (
     See,
     Select,
     Show,
+    Stop,
     Take,
 )
+from .player import Player
 from .recovery import Recovery, recovered, said
 from .selection import Selection
 from .tools.gesture import Held
@@ -61,6 +65,7 @@ class Session:
     def __init__(self, settings: files.Settings, wake: Callable[[], None] = lambda: None) -> None:
         self.settings = settings
         self.recovery = Recovery()
+        self.player = Player()
         self.wake = wake
         self.size = (800, 600)
         self.dialogs: list[Dialog] = []
@@ -81,6 +86,21 @@ class Session:
     @property
     def scene(self) -> Scene:
         return self.document.scene
+
+    @property
+    def shown(self) -> Scene:
+        """The scene as it is to be seen: as an animation has it, while one plays."""
+        try:
+            return self.player.scene(self.scene)
+        except edit.EditError as error:
+            self.player.stop()
+            self.complain(str(error))
+            return self.scene
+
+    @property
+    def shown_view(self) -> View:
+        """The view, led by an animation while one plays that leads it."""
+        return self.view.moved(self.player.camera(self.view.camera))
 
     @property
     def history(self) -> edit.History:
@@ -130,6 +150,7 @@ class Session:
                 self.release()
             case Take(gesture):
                 self.release()
+                self.player.stop()
                 self.history.begin(gesture.label)
                 self.held = Held(gesture)
             case Pull(held):
@@ -156,6 +177,10 @@ class Session:
                 self.view = view
             case Resize(size):
                 self._resize(size)
+            case Play(animation, share, running):
+                self.player.play(animation, share, running)
+            case Stop():
+                self.player.stop()
             case Do(action):
                 actions.perform(self, action)
             case Ask(dialog):
@@ -340,6 +365,7 @@ class Session:
     def _show(self, document: Document) -> None:
         """From now on this is the document, seen as it was saved or else from where all of it is seen."""
         self.document = document
+        self.player.stop()
         self._region = document.scene, region(document.scene)
         self.selection = Selection((0,)).within(document.scene)
         view = restored(document.scene.view)
@@ -374,7 +400,8 @@ class Session:
         self.say(f"Exporting {settings.path.name}")
 
     def poll(self) -> None:
-        """Once a frame: tell how an export ended, and keep copies of what is not saved."""
+        """Once a frame: tell how an export ended, keep copies of what is not saved, and go on with what plays."""
+        self.player.advance(monotonic())
         fault = self.recovery.tick(self)
         if fault:
             self.complain(fault)

@@ -47,6 +47,7 @@ class Window:
         self.guard = Guard(session)
         self._memory = Memory()
         self._tree = outliner.Tree()
+        self._slider = slice_bar.Slider()
         self._shelf = presets.Shelf(files.builtin())
         self.hand = Hand()
         self.chooser = native.NativeChooser() if native_dialogs and native.available() else None
@@ -115,7 +116,7 @@ class Window:
             "Viewport": lambda: viewport.draw(session, self.hand, self),
             "Properties": lambda: properties.draw(session, memory),
             "Scene": lambda: scene.draw(session, memory),
-            "Slice": lambda: slice_bar.draw(session, memory),
+            "Slice": lambda: slice_bar.draw(session, memory, self._slider),
         }
 
     def _draw(self, name: str) -> Iterable[Intent]:
@@ -169,7 +170,8 @@ class Window:
             self.guard.run("Thumbnails", self._thumbnail)
         # ImGui spreads keys pressed in quick succession over several frames, which a window at rest would not draw
         pressed = len(imgui.get_current_context().input_events_queue) > 0
-        if better or pressed or self.thumbnails.waiting or self.session.export or self._choosing:
+        busy = self.session.export or self.session.player.running or self._choosing
+        if better or pressed or busy or self.thumbnails.waiting:
             hello_imgui.request_refresh()
 
     def _dialog(self) -> Iterable[Intent]:
@@ -198,8 +200,8 @@ class Window:
     def draw(self, size: tuple[int, int]) -> int:
         session = self.session
         spare = self._spare() if session.refining else 0.0
-        texture = self._canvas.draw(session.scene, session.view, size, spare, self.hand.lit)
-        session.located(session.scene, self._canvas.region)
+        texture = self._canvas.draw(session.shown, session.shown_view, size, spare, self.hand.lit)
+        session.located(session.shown, self._canvas.region)
         return texture
 
     def seen(self, size: tuple[int, int], pixel: tuple[int, int]) -> Seen | None:

@@ -82,6 +82,10 @@ class Animation(Value):
         count = len(self.sweeps[0].values)
         return tuple(index / (count - 1) for index in range(count))
 
+    def phase(self, share: float) -> float:
+        """The phase when a share of one round, from 0 to 1, has passed; eased."""
+        return self._eased(min(2 * share, 2 - 2 * share) if self.repeat == "ping-pong" else share)
+
     def phases(self, frames: int) -> list[float]:
         """The phases of so many evenly spaced frames of one round, eased.
 
