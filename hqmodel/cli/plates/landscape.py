@@ -60,14 +60,14 @@ def draw_landscape(land: Land, level: float, section: Outline, size: Size) -> Im
     def seen(points: Array) -> list[tuple[float, float]]:
         return [(x, y) for x, y in camera.project(points * [1, 1, steep], fine).tolist()]
 
-    for polygon, color in _pieces(land, level, below=True):
+    for polygon, color in pieces(land, level, below=True):
         draw.polygon(seen(polygon), fill=color)
     corners = np.array([[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]])
     draw.polygon(seen(np.column_stack([corners, np.full(4, level)])), fill=_PLANE, outline=(*_CURVE, 160), width=FINE)
     for polygon in section.polygons(1e-3 * float(np.max(high - low))):
         curve = seen(np.column_stack([polygon, np.full(len(polygon), level)]))
         draw.line([*curve, *curve[:2]], fill=_CURVE, width=max(1, round(_LINE * fine[1])), joint="curve")
-    for polygon, color in _pieces(land, level, below=False):
+    for polygon, color in pieces(land, level, below=False):
         draw.polygon(seen(polygon), fill=color)
     return finished(picture)
 
@@ -99,7 +99,7 @@ def _nodes(terms: Terms, low: Array, high: Array) -> Array:
     return np.concatenate([ground[..., :2], value(terms, ground)[..., None]], axis=-1)
 
 
-def _pieces(land: Land, level: float, below: bool) -> Iterator[tuple[Array, tuple[int, ...]]]:
+def pieces(land: Land, level: float, below: bool) -> Iterator[tuple[Array, tuple[int, ...]]]:
     """The parts of squares on one side of the level, polygons (k, 3), with their colours."""
     side = -1.0 if below else 1.0
     heights = side * (land.corners[..., 2] - level)
