@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from itertools import product
 from math import pi, sqrt
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -137,6 +138,23 @@ def test_rhombic_solids(name: str) -> None:
     assert (len(hull.vertices), _faces(hull), len(edges)) == (corners, faces, count)
     np.testing.assert_allclose(edges, edges[0], rtol=1e-7)
     assert hull.volume == pytest.approx(volume * edges[0] ** 3, rel=1e-7)
+
+
+def test_the_documentation_tells_them_right() -> None:
+    """Its table of solids: frame, exponent, slice, strips, corners and faces."""
+    text = (Path(__file__).parents[2] / "docs" / "frames.md").read_text()
+    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in text.splitlines() if line.startswith("| ")][2:]
+    told = set()
+    for _, frame, exponent, t, strips, corners, faces in rows:
+        name, _, source = frame.partition(" = ")
+        source = source or name
+        assert SOLIDS.get(name, (source, 0.0)) == (source, float(t))
+        rows_of = make_frame(source)
+        assert len(rows_of) == int(strips)
+        hull = outer(name) if exponent == "large" else inner(source, float(t))
+        assert (len(hull.vertices), _faces(hull)) == (int(corners), int(faces))
+        told.add(name)
+    assert told == {*FRAMES, *SOLIDS} - {"simplex3", "ico10"}
 
 
 def test_every_solid_is_judged() -> None:
