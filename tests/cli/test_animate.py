@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from PIL import Image
+from PIL import Image, ImageSequence
 
 from .conftest import BALL, Command, files
 
@@ -21,11 +21,7 @@ SMALL = ["--size", "48x36"]
 
 def frames(name: str) -> list[Picture]:
     with Image.open(name) as film:
-        found = []
-        for index in range(getattr(film, "n_frames", 1)):
-            film.seek(index)
-            found.append(np.asarray(film.convert("RGB")))
-        return found
+        return [np.asarray(frame.convert("RGB")) for frame in ImageSequence.Iterator(film)]
 
 
 def body(picture: Picture) -> NDArray[np.bool_]:
@@ -45,11 +41,8 @@ def test_a_gif_has_the_frames_and_the_time_asked_for(hqmodel: Command) -> None:
     result = told(hqmodel, "-o", "a.gif", "--sweep", "transform.scale[2]=0.3:1", "--frames", "5", "--seconds", "0.7")
     assert (result["frames"], result["duration"], result["files"]) == (5, 0.7, ["a.gif"])
     with Image.open("a.gif") as film:
-        delays = []
-        for index in range(film.n_frames):
-            film.seek(index)
-            delays.append(film.info["duration"])
         assert film.info["loop"] == 0
+        delays = [frame.info["duration"] for frame in ImageSequence.Iterator(film)]
     assert sum(delays) == 700
     heights = [int(np.ptp(np.nonzero(body(frame))[0])) for frame in frames("a.gif")]
     assert len(heights) == 5

@@ -69,7 +69,8 @@ def test_the_camera_is_swept_apart_from_the_scene() -> None:
 @pytest.mark.parametrize("easing", ["linear", "smooth"])
 def test_frames_go_forward_and_come_back_the_same_way(easing: Any) -> None:
     once = swept(1, 2, 4, easing=easing, repeat="once").phases(11)
-    assert (once[0], once[5], once[-1]) == (0, pytest.approx(0.5), 1)
+    assert (once[0], once[-1]) == (0, 1)
+    assert once[5] == pytest.approx(0.5)
     assert all(a < b for a, b in pairwise(once))
     there = swept(1, 2, 4, easing=easing, repeat="ping-pong").phases(12)
     assert (there[0], there[6], max(there)) == (0, 1, 1)
