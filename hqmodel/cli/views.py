@@ -21,7 +21,7 @@ View = Annotated[
 Azimuth = Annotated[float | None, typer.Option("--azimuth", metavar="DEGREES", help="From the front (0) to the right (90).")]
 Elevation = Annotated[float | None, typer.Option("--elevation", metavar="DEGREES", help="From below (-90) to above (90).")]
 Mode = Annotated[
-    str, typer.Option("--mode", metavar="MODE", help="clay, porcelain, metal or studio; normals, curvature, strips or depth.")
+    str, typer.Option("--mode", metavar="MODE", help="clay, porcelain, metal, studio, normals, curvature, strips or depth.")
 ]
 
 
