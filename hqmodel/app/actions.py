@@ -24,7 +24,9 @@ if TYPE_CHECKING:
     from .session import Session
 
 THEMES = ("dark", "light")
-PANELS = ("Outliner", "Presets", "Properties", "Scene")
+PANELS = ("Outliner", "Presets", "Properties", "Scene", "Timeline")
+# Not shown before they are asked for.
+HIDDEN = ("Timeline",)
 
 
 def _always(_: Session) -> bool:
@@ -309,7 +311,7 @@ def _toggle_panel(name: str, session: Session) -> None:
 
 
 def _reset_layout(session: Session) -> None:
-    session.hidden_panels.clear()
+    session.hidden_panels = set(HIDDEN)
     session.layout_wanted = True
 
 

@@ -135,6 +135,21 @@ class Play:
 
 
 @dataclass(frozen=True)
+class Animate:
+    """This number set in motion, in the animation that is picked or in a new one."""
+
+    path: Location
+    label: str
+
+
+@dataclass(frozen=True)
+class Pick:
+    """The animation that is worked on."""
+
+    animation: int | None
+
+
+@dataclass(frozen=True)
 class Stop:
     """No animation is shown any more."""
 
@@ -167,5 +182,5 @@ class Adjust:
     dialog: Dialog
 
 
-Handling = Take | Pull | Show | Drop | Equip | Choose | Play | Stop
+Handling = Take | Pull | Show | Drop | Equip | Choose | Play | Stop | Animate | Pick
 Intent = Grab | Put | Release | Reset | Edit | Select | Look | See | Resize | Do | Ask | Answer | Adjust | Departure | Handling

@@ -7,6 +7,7 @@ from functools import partial
 
 from imgui_bundle import hello_imgui, imgui
 
+from .actions import HIDDEN
 from .session import Session
 
 # Panel: the space it is docked in. Each space is split off another one: side, share.
@@ -16,11 +17,13 @@ _PLACES = {
     "Presets": "LeftLowerSpace",
     "Properties": "RightSpace",
     "Scene": "RightSpace",
+    "Timeline": "LowerSpace",
 }
 _SPLITS = (
     ("MainDockSpace", "LeftSpace", imgui.Dir.left, 0.2),
     ("MainDockSpace", "RightSpace", imgui.Dir.right, 0.34),
     ("LeftSpace", "LeftLowerSpace", imgui.Dir.down, 0.55),
+    ("MainDockSpace", "LowerSpace", imgui.Dir.down, 0.3),
 )
 _PLAIN = imgui.internal.DockNodeFlagsPrivate_.no_window_menu_button | imgui.internal.DockNodeFlagsPrivate_.no_close_button
 _FIXED = imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse | imgui.WindowFlags_.no_move
@@ -37,7 +40,7 @@ def docking(panels: Mapping[str, Callable[[], None]]) -> hello_imgui.DockingPara
 
 def _window(name: str, draw: Callable[[], None]) -> hello_imgui.DockableWindow:
     if name != "Viewport":
-        return hello_imgui.DockableWindow(name, _PLACES[name], draw)
+        return hello_imgui.DockableWindow(name, _PLACES[name], draw, is_visible_=name not in HIDDEN)
     window = hello_imgui.DockableWindow(name, _PLACES[name], partial(_bare, name, draw), can_be_closed_=False)
     window.call_begin_end = False
     return window

@@ -10,6 +10,7 @@ from pathlib import Path
 from time import monotonic
 
 from hqmodel import edit, files
+from hqmodel.edit.sweeping import animate
 from hqmodel.field import Region, region
 from hqmodel.model import Camera, Scene
 
@@ -19,6 +20,7 @@ from .document import Document
 from .export import ExportJob
 from .intents import (
     Adjust,
+    Animate,
     Answer,
     Ask,
     Choose,
@@ -30,6 +32,7 @@ from .intents import (
     Intent,
     Location,
     Look,
+    Pick,
     Play,
     Pull,
     Put,
@@ -70,7 +73,8 @@ class Session:
         self.size = (800, 600)
         self.dialogs: list[Dialog] = []
         self.export: ExportJob | None = None
-        self.hidden_panels: set[str] = set()
+        self.hidden_panels = set(actions.HIDDEN)
+        self.animation: int | None = None
         self.layout_wanted = False
         self.finished = False
         self.kit = Kit()
@@ -181,6 +185,10 @@ class Session:
                 self.player.play(animation, share, running)
             case Stop():
                 self.player.stop()
+            case Animate(path, label):
+                self._animate(path, label)
+            case Pick(animation):
+                self.animation = animation
             case Do(action):
                 actions.perform(self, action)
             case Ask(dialog):
@@ -250,6 +258,16 @@ class Session:
         else:
             self.history.apply(scene, label)
             self.say(label)
+
+    def _animate(self, path: Location, label: str) -> None:
+        """In the animation that is picked, or in a new one, which is picked then; and the timeline is there to see."""
+        self.release()
+        count = len(self.scene.animations)
+        index = self.animation if self.animation is not None and self.animation < count else None
+        self._change(f"Animate {label}", lambda scene: animate(scene, path, index, label))
+        if index is None and len(self.scene.animations) > count:
+            self.animation = count
+        self.hidden_panels.discard("Timeline")
 
     def _reset(self, intent: Reset) -> None:
         """The first click of a double click has moved the slider: that step goes."""
@@ -366,6 +384,7 @@ class Session:
         """From now on this is the document, seen as it was saved or else from where all of it is seen."""
         self.document = document
         self.player.stop()
+        self.animation = None
         self._region = document.scene, region(document.scene)
         self.selection = Selection((0,)).within(document.scene)
         view = restored(document.scene.view)

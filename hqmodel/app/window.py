@@ -23,7 +23,7 @@ from .form import Memory
 from .guard import Guard
 from .hands.hand import Hand
 from .intents import Intent, Release
-from .panels import menus, outliner, presets, properties, scene, slice_bar, status, viewport
+from .panels import menus, outliner, presets, properties, scene, slice_bar, status, timeline, viewport
 from .session import Session
 from .thumbnails import Thumbnails
 
@@ -48,6 +48,7 @@ class Window:
         self._memory = Memory()
         self._tree = outliner.Tree()
         self._slider = slice_bar.Slider()
+        self._reel = timeline.Reel()
         self._shelf = presets.Shelf(files.builtin())
         self.hand = Hand()
         self.chooser = native.NativeChooser() if native_dialogs and native.available() else None
@@ -116,6 +117,7 @@ class Window:
             "Viewport": lambda: viewport.draw(session, self.hand, self),
             "Properties": lambda: properties.draw(session, memory),
             "Scene": lambda: scene.draw(session, memory),
+            "Timeline": lambda: timeline.draw(session, self._reel),
             "Slice": lambda: slice_bar.draw(session, memory, self._slider),
         }
 
@@ -170,8 +172,8 @@ class Window:
             self.guard.run("Thumbnails", self._thumbnail)
         # ImGui spreads keys pressed in quick succession over several frames, which a window at rest would not draw
         pressed = len(imgui.get_current_context().input_events_queue) > 0
-        busy = self.session.export or self.session.player.running or self._choosing
-        if better or pressed or busy or self.thumbnails.waiting:
+        under_way = self.session.export or self.session.player.running or self._choosing
+        if better or pressed or under_way or self.thumbnails.waiting:
             hello_imgui.request_refresh()
 
     def _dialog(self) -> Iterable[Intent]:

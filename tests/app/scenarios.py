@@ -398,7 +398,7 @@ def a_fault_in_a_panel(hands: Hands) -> None:
 def panels_and_themes(hands: Hands) -> None:
     """Panels can be closed and come back; the light theme is kept for the next time."""
     session = hands.session
-    assert session.hidden_panels == {"Presets"}
+    assert session.hidden_panels == {"Presets", "Timeline"}
     hands.menu("View/Panels/###panel Presets")
     hands.settle(5)
     assert shown(hands, "Presets")
@@ -409,10 +409,10 @@ def panels_and_themes(hands: Hands) -> None:
     assert files.Settings.read().preferences["theme"] == "light"
     hands.ctx.window_close("//Scene")
     hands.settle(3)
-    assert session.hidden_panels == {"Presets", "Scene"}
+    assert session.hidden_panels == {"Presets", "Scene", "Timeline"}
     hands.menu("View/Panels/###reset layout")
     hands.settle(5)
-    assert session.hidden_panels == set()
+    assert session.hidden_panels == {"Timeline"}
     assert shown(hands, "Scene")
     assert shown(hands, "Presets")
     for keys, dialog in ((Key.f1, "Shortcuts"), (None, "About hqmodel")):
