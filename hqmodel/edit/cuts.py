@@ -23,6 +23,8 @@ from .strips import add_strip
 CLEAR = 1.4
 # The exponent that planes patted and cut are given, unless another is asked for.
 PAT, CHOP = 16.0, 80.0
+# A pat goes no deeper than to this share of the way to the new strip's other plane.
+_DEEPEST = 0.99
 
 
 def clay_at(scene: Scene, point: ArrayLike) -> tuple[int, NDArray[np.float64]]:
@@ -52,6 +54,7 @@ def pat(scene: Scene, shape: int, point: ArrayLike, normal: ArrayLike, depth: fl
     h = _room(scene, shape, at - depth * out) ** (1 / gamma)
     # h = 1 at near, -1 at -length, and this h at -depth
     near = (length * (1 - h) - 2 * depth) / (1 + h) if h < inf else -depth
+    near = max(near, -length * _DEEPEST)
     start = float(out @ at)
     strip = placed(Strip(normal=(0, 0, 1), gamma=gamma), scene.shapes[shape], scene.slice, out, start + near, start - length)
     return add_strip(scene, shape, strip)

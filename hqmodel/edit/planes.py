@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from hqmodel.field import rotation_matrix, world_planes
 from hqmodel.model import Scene, Shape, Strip
 
-from .paths import get, put
+from .paths import changed, get, put
 
 # Two planes of a strip come no nearer than this share of their distance in one push.
 CLOSEST = 1e-3
@@ -22,19 +22,19 @@ def push_plane(scene: Scene, shape: int, strip: int, side: int, distance: float)
     """One plane moved outwards by this distance; the opposite one stays where it is."""
     old, own = _own(scene, shape, strip)
     step = max(own * distance, 2 * old.half_width * (CLOSEST - 1))
-    return _put(scene, shape, strip, old.changed(half_width=old.half_width + step / 2, offset=old.offset - side * step / 2))
+    return _put(scene, shape, strip, changed(old, half_width=old.half_width + step / 2, offset=old.offset - side * step / 2))
 
 
 def spread_planes(scene: Scene, shape: int, strip: int, distance: float) -> Scene:
     """Both planes moved outwards by this distance; the strip's middle stays."""
     old, own = _own(scene, shape, strip)
-    return _put(scene, shape, strip, old.changed(half_width=max(old.half_width + own * distance, old.half_width * CLOSEST)))
+    return _put(scene, shape, strip, changed(old, half_width=max(old.half_width + own * distance, old.half_width * CLOSEST)))
 
 
 def slide_strip(scene: Scene, shape: int, strip: int, side: int, distance: float) -> Scene:
     """Both planes moved together, towards that side by this distance."""
     old, own = _own(scene, shape, strip)
-    return _put(scene, shape, strip, old.changed(offset=old.offset - side * own * distance))
+    return _put(scene, shape, strip, changed(old, offset=old.offset - side * own * distance))
 
 
 def tilt_strip(scene: Scene, shape: int, strip: int, pivot: ArrayLike, turn: ArrayLike) -> Scene:
@@ -61,7 +61,7 @@ def placed(strip: Strip, shape: Shape, t: float, direction: ArrayLike, near: flo
     share = float(np.linalg.norm(strip.normal) / np.linalg.norm(own))
     half, middle = share * (near - far) / 2, share * ((near + far) / 2 - float(u @ np.array(transform.translation)))
     normal = tuple(float(part) + 0.0 for part in share * own)  # + 0.0 makes -0.0 plain
-    return strip.changed(normal=normal, half_width=half, offset=-middle - strip.slice * t)
+    return changed(strip, normal=normal, half_width=half, offset=-middle - strip.slice * t)
 
 
 def _own(scene: Scene, shape: int, strip: int) -> tuple[Strip, float]:

@@ -41,13 +41,14 @@ class Aim:
     def along(self, point: ArrayLike, direction: ArrayLike, moved: Pixels) -> float:
         """How far a world point (3,) goes along a unit direction (3,) when the hand has moved so many pixels (right, down).
 
-        To where the line is nearest to what the pointer shows; but where the line is seen nearly end-on, up is forwards.
+        To where the line is nearest to what the pointer shows; but where it is seen nearly end-on, or not at all, up is forwards.
         """
         start, line = np.asarray(point, dtype=float), np.asarray(direction, dtype=float)
         depth = self.per_pixel(start) * self.size[1]
-        if self.end_on(start, line):
+        seen = self.pixel(start)
+        if not np.all(np.isfinite(seen)) or self.end_on(start, line):
             return -moved[1] * depth / self.size[1]
-        (origin,), (ray,) = self.camera.rays([self.pixel(start) + moved], self.size)
+        (origin,), (ray,) = self.camera.rays([seen + moved], self.size)
         # nearest points of two lines: start + s line and origin + r ray
         slant, apart = float(line @ ray), origin - start
         s = (float(apart @ line) - slant * float(apart @ ray)) / max(1.0 - slant * slant, 1e-9)
@@ -66,14 +67,14 @@ class Aim:
 
     def turned(self, pivot: ArrayLike, start: Pixels, moved: Pixels) -> float:
         """The angle, in degrees, that the pointer has gone round a world point (3,), counter-clockwise as it is seen."""
-        x, y = self.pixel(pivot)
+        x, y = self._middle(pivot)
         before, after = (start[0] - x, y - start[1]), (start[0] + moved[0] - x, y - start[1] - moved[1])
         turn = degrees(atan2(after[1], after[0]) - atan2(before[1], before[0]))
         return (turn + 180.0) % 360.0 - 180.0
 
     def spread(self, pivot: ArrayLike, start: Pixels, moved: Pixels) -> float:
         """How many times as far from a world point (3,) the pointer is as it was."""
-        x, y = self.pixel(pivot)
+        x, y = self._middle(pivot)
         before = max(hypot(start[0] - x, start[1] - y), 8.0)
         return max(hypot(start[0] + moved[0] - x, start[1] + moved[1] - y) / before, 1e-3)
 
@@ -82,3 +83,8 @@ class Aim:
         width = self.per_pixel(point) * _STEP_PIXELS
         decade = 10.0 ** floor(log10(width))
         return decade * next(k for k in (1, 2, 5, 10) if k * decade >= width)
+
+    def _middle(self, point: ArrayLike) -> Array:
+        """Where a world point (3,) is seen; one behind the eye in the picture's middle."""
+        seen = self.pixel(point)
+        return seen if np.all(np.isfinite(seen)) else np.array(self.size) / 2

@@ -108,7 +108,7 @@ class Soften(Gesture):
         return self.before.shapes[self.shape].strips[self.strip].gamma
 
     def measured(self, moved: Pixels) -> Values:
-        return (self._permitted(self.gamma * exp((moved[0] - moved[1]) / _EXPONENT_PIXELS)),)
+        return (self._permitted(self.gamma * _factor(moved)),)
 
     def snapped(self, values: Values) -> Values:
         return (self._permitted(_RATIO ** round(log(values[0], _RATIO))),)
@@ -211,7 +211,7 @@ class Harden(Gesture):
     label: ClassVar[str] = "Hardness"
 
     def measured(self, moved: Pixels) -> Values:
-        return (self.before.shapes[self.shape].hardness * exp((moved[0] - moved[1]) / _EXPONENT_PIXELS),)
+        return (self.before.shapes[self.shape].hardness * _factor(moved),)
 
     def snapped(self, values: Values) -> Values:
         return (_RATIO ** round(log(values[0], _RATIO)),)
@@ -221,3 +221,8 @@ class Harden(Gesture):
 
     def told(self, values: Values) -> str:
         return f"hardness {values[0]:.3g}"
+
+
+def _factor(moved: Pixels) -> float:
+    """What a pull to the right, or up, multiplies by."""
+    return exp(min(max((moved[0] - moved[1]) / _EXPONENT_PIXELS, -50.0), 50.0))
