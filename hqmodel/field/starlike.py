@@ -19,12 +19,12 @@ from .terms import Array, Terms
 
 _RAYS = 1500
 # How many centres are tried, and how many hidden points of one the next is to see.
-_CENTRES, _SPOTS = 4, 100
-# Newton steps to the surface.
-_STEPS = 4
+_CENTRES, _SPOTS = 3, 100
+# In how many of the boxes the surface is looked at for a hidden point, after so many Newton steps to it.
+_LOOKS, _STEPS = 2000, 4
 _SEED = 1988
 # Boxes along a side in the first look, how often those in doubt are split, and how many of them there may be.
-_COARSE, _ROUNDS, _MOST = 8, 12, 150_000
+_COARSE, _ROUNDS, _MOST = 8, 12, 60_000
 _AT_ONCE = 1 << 20
 # A strip whose h at the centre is no more than this share of its parts is 0 there: a cusp is seen from its own plane alone.
 _ROUNDING = 1e-14
@@ -125,7 +125,7 @@ def _hidden(terms: Terms, region: Region, centre: Array) -> Array:
         least, most = box_bounds(terms, low, low + side)
         low = low[(least <= 0) & (most >= 0)]
         low = low[~(_facing(terms, low, low + side, centre) > 0)]
-        points, normals = _on_surface(terms, low + side / 2)
+        points, normals = _on_surface(terms, low[:: 1 + len(low) // _LOOKS] + side / 2)
         facing = np.sum(normals * (points - centre), axis=1)
         if np.any(facing < 0):
             worst = np.argsort(facing)[:_SPOTS]
@@ -138,18 +138,17 @@ def _hidden(terms: Terms, region: Region, centre: Array) -> Array:
 
 
 def _facing(terms: Terms, low: Array, high: Array, centre: Array) -> Array:
-    """A lower bound (n,) of -(x - c) . grad F over boxes (n, 3), in units of the largest term there."""
+    """A lower bound (n,) of -(x - c) . grad F over boxes (n, 3), in units of the largest term there; NaN where there is none."""
     result = np.empty(len(low))
     step = max(1, _AT_ONCE // len(terms.inner))
     for start in range(0, len(low), step):
         here = slice(start, start + step)
         middle, reach = box_ranges(terms, low[here], high[here])
         t_low, t_high = term_bounds(terms, middle, reach)
-        slope_low, slope_high = _radial_slopes(terms, middle, reach, centre)
-        adds = terms.positive[:, None]
-        slope = np.where(adds, slope_low, -slope_high)  # what carves takes away the more the steeper it is
-        t = np.where(slope < 0, t_high, t_low) - np.max(t_high, axis=0)
-        with np.errstate(over="ignore", invalid="ignore"):
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            slope_low, slope_high = _radial_slopes(terms, middle, reach, centre)
+            slope = np.where(terms.positive[:, None], slope_low, -slope_high)  # what carves takes away the more the steeper it is
+            t = np.where(slope < 0, t_high, t_low) - np.max(t_high, axis=0)
             result[here] = np.sum(np.exp(t) * terms.hardness[:, None] * slope, axis=0)
     return result
 
@@ -159,18 +158,15 @@ def _radial_slopes(terms: Terms, middle: Array, reach: Array, centre: Array) -> 
 
     Of a group it is G s^(G/g - 1) sum |h|^(g-1) sign(h) (h - h(c)) with s = sum |h|^g.
     """
-    f_low, f_high = _strip_slopes(terms, middle - reach, middle + reach, centre)
-    f_low, f_high = over_runs(f_low, terms.group_start), over_runs(f_high, terms.group_start)
+    f_low, f_high = (over_runs(f, terms.group_start) for f in _strip_slopes(terms, middle - reach, middle + reach, centre))
     size, g = np.abs(middle), terms.inner[:, None]
-    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        spread = [over_runs(u**g, terms.group_start) for u in (np.maximum(size - reach, 0.0), size + reach)]
-        raised = [s ** (terms.outer / terms.inner[terms.group_start] - 1)[:, None] for s in spread]
-        least, most = terms.outer[:, None] * np.minimum(*raised), terms.outer[:, None] * np.maximum(*raised)
-        low = np.where(f_low < 0, most, least) * f_low
-        high = np.where(f_high > 0, most, least) * f_high
-        sign = terms.group_sign[:, None]
-        low, high = np.where(sign > 0, low, -high), np.where(sign > 0, high, -low)
-        return over_runs(low, terms.term_start), over_runs(high, terms.term_start)
+    spread = [over_runs(u**g, terms.group_start) for u in (np.maximum(size - reach, 0.0), size + reach)]
+    raised = [terms.outer[:, None] * s ** (terms.outer / terms.inner[terms.group_start] - 1)[:, None] for s in spread]
+    least, most = np.minimum(*raised), np.maximum(*raised)
+    low, high = np.where(f_low < 0, most, least) * f_low, np.where(f_high > 0, most, least) * f_high
+    adds = terms.group_sign[:, None] > 0
+    low, high = np.where(adds, low, -high), np.where(adds, high, -low)
+    return over_runs(low, terms.term_start), over_runs(high, terms.term_start)
 
 
 def _strip_slopes(terms: Terms, low: Array, high: Array, centre: Array) -> tuple[Array, Array]:
@@ -186,13 +182,11 @@ def _strip_slopes(terms: Terms, low: Array, high: Array, centre: Array) -> tuple
 
     def f(h: Array) -> Array:
         size = np.abs(h)
-        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-            return np.where(at == 0, size**g, np.sign(h) * size ** (g - 1) * (h - at))
+        return np.where(at == 0, size**g, np.sign(h) * size ** (g - 1) * (h - at))
 
     ends = f(low), f(high)
-    least, most = np.minimum(*ends), np.maximum(*ends)
     dip = np.clip(at * (g - 1) / g, low, high)
-    least = np.minimum(least, f(dip))
     across = (low <= 0) & (high >= 0) & (at > 0) & (g <= 1)
     leap = np.where(g < 1, np.inf, at)
-    return np.where(across, -leap, least), np.where(across, np.maximum(most, leap), most)
+    least = np.where(across, -leap, np.minimum(np.minimum(*ends), f(dip)))
+    return least, np.where(across, np.maximum(np.maximum(*ends), leap), np.maximum(*ends))
