@@ -87,6 +87,7 @@ def animate(
     moments = list(zip(moving.phases(count) if moving else [0.0] * count, turns, strict=True))
     with TemporaryDirectory(prefix="hqmodel-") as folder:
         with progress(quiet) as report:
+            report(0.0, "Measuring")
             seen = _seen(preset, scene, camera, moving, list(dict.fromkeys(moments)), extent[0] / extent[1])
             drawn = _drawn(seen, extent, mode, Path(folder), report)
         number = {moment: index for index, moment in enumerate(drawn)}
