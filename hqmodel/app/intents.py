@@ -155,6 +155,14 @@ class Stop:
 
 
 @dataclass(frozen=True)
+class Prefer:
+    """A preference, remembered from now on."""
+
+    name: str
+    value: object
+
+
+@dataclass(frozen=True)
 class Do:
     """An action of the table, by its id."""
 
@@ -182,5 +190,5 @@ class Adjust:
     dialog: Dialog
 
 
-Handling = Take | Pull | Show | Drop | Equip | Choose | Play | Stop | Animate | Pick
+Handling = Take | Pull | Show | Drop | Equip | Choose | Play | Stop | Animate | Pick | Prefer
 Intent = Grab | Put | Release | Reset | Edit | Select | Look | See | Resize | Do | Ask | Answer | Adjust | Departure | Handling

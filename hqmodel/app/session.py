@@ -34,6 +34,7 @@ from .intents import (
     Look,
     Pick,
     Play,
+    Prefer,
     Pull,
     Put,
     Release,
@@ -189,6 +190,8 @@ class Session:
                 self._animate(path, label)
             case Pick(animation):
                 self.animation = animation
+            case Prefer(name, value):
+                self.keep(self.settings.preferring(**{name: value}))
             case Do(action):
                 actions.perform(self, action)
             case Ask(dialog):

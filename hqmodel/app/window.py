@@ -11,7 +11,6 @@ from pathlib import Path
 import moderngl
 from imgui_bundle import hello_imgui, imgui
 
-from hqmodel import files
 from hqmodel.files import settings_folder
 from hqmodel.gpu import Legend, Seen
 
@@ -25,6 +24,7 @@ from .hands.hand import Hand
 from .intents import Intent, Release
 from .panels import menus, outliner, presets, properties, scene, slice_bar, status, timeline, viewport
 from .session import Session
+from .shelf import stocked
 from .thumbnails import Thumbnails
 
 # Idle, the window draws one frame in so many seconds; whatever happens wakes it at once.
@@ -49,7 +49,7 @@ class Window:
         self._tree = outliner.Tree()
         self._slider = slice_bar.Slider()
         self._reel = timeline.Reel()
-        self._shelf = presets.Shelf(files.builtin())
+        self._shelf = stocked()
         self.hand = Hand()
         self.chooser = native.NativeChooser() if native_dialogs and native.available() else None
         self._shown = layout.Shown()

@@ -7,6 +7,7 @@ from .builtin import Builtin, builtin
 from .dump import dumps, save
 from .errors import PresetError
 from .load import find, load, parse
+from .pictures import Pictures
 from .schema import schema, schema_text
 from .settings import Settings, settings_folder, state_folder
 
@@ -14,6 +15,7 @@ __all__ = [
     "Builtin",
     "Lost",
     "Origin",
+    "Pictures",
     "PresetError",
     "Ring",
     "Settings",

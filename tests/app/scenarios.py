@@ -432,7 +432,7 @@ def shown(hands: Hands, panel: str) -> bool:
 def a_built_in_preset(hands: Hands) -> None:
     """A click in the Presets panel opens it; it has a picture; saving asks for a file."""
     session = hands.session
-    preset = files.builtin()[0]
+    preset = next(preset for preset in files.builtin() if preset.collection == "starters")
     hands.menu("View/Panels/###panel Presets")
     hands.settle(5)
     hands.ctx.window_focus("//Presets")
@@ -442,4 +442,12 @@ def a_built_in_preset(hands: Hands) -> None:
     hands.type_value("//Presets/##search", "no preset is called this")
     assert not hands.ctx.item_exists(f"//Presets/**/##{preset.name}")
     hands.type_value("//Presets/##search", preset.title)
-    hands.wait(lambda: hands.window.thumbnails.texture(preset) is not None)
+    hands.wait(lambda: hands.window.thumbnails.texture(preset.path) is not None)
+    assert list((hands.folder / "cache").rglob("*.png")), "it is there at the next start"
+    hands.ctx.mouse_move(f"//Presets/**/##{preset.name}")
+    hands.settle()
+    hands.click(f"//Presets/**/###star {preset.name}")
+    assert files.Settings.read().preferences["favourites"] == [str(preset.path)]
+    hands.settle()
+    hands.click("//Presets/**/Favourites/###star " + preset.name)
+    assert files.Settings.read().preferences["favourites"] == []

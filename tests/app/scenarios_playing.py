@@ -79,7 +79,7 @@ def the_timeline(hands: Hands) -> None:
     hands.settle(3)
     hands.shoot("timeline-fault")
     hands.click(f"{TIMELINE}$$0/###remove")
-    assert session.scene.animations == ()
+    assert not session.scene.animations
 
 
 def gamma(scene: Scene) -> float:

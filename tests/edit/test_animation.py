@@ -136,7 +136,7 @@ def test_edits_keep_unknown_keys_and_the_others() -> None:
         ),
         (
             {"sweeps": [{"path": "slice", "values": [1, 2]}], "easing": "bouncy"},
-            "animations[0].easing: expected \"linear\" or \"smooth\", got 'bouncy'",
+            'animations[0].easing: expected "linear" or "smooth", got \'bouncy\'',
         ),
         (
             {"sweeps": [{"path": "slice", "values": [1, 2]}], "duration": 0},

@@ -38,17 +38,17 @@ def _shape(form: Form, index: int, shape: Shape) -> None:
     form.text((*at, "name"), "Name")
     form.color((*at, "color"))
     form.toggle((*at, "visible"), "Visible")
-    if _section("Strips"):
+    if heading("Strips"):
         _strips(form, index, shape)
-    if _section("Blend"):
+    if heading("Blend"):
         for name in ("coefficient", "hardness", "constant"):
             form.number((*at, name))
-    if _section("Transform"):
+    if heading("Transform"):
         form.number((*at, "transform", "translation"))
         form.rotation((*at, "transform", "rotation"))
         form.number((*at, "transform", "scale"))
         _mirror(form, index, shape)
-    if shape.groups and _section("Groups"):
+    if shape.groups and heading("Groups"):
         _groups(form, index, shape)
 
 
@@ -147,7 +147,8 @@ def _group(form: Form, index: int, number: int, shape: Shape) -> None:
     imgui.end_combo()
 
 
-def _section(title: str) -> bool:
+def heading(title: str) -> bool:
+    """A section that folds; whether it is open."""
     imgui.spacing()
     imgui.push_style_color(imgui.Col_.header, imgui.get_style_color_vec4(imgui.Col_.table_header_bg))
     opened = imgui.collapsing_header(title, imgui.TreeNodeFlags_.default_open)
