@@ -1,8 +1,8 @@
 """Whether a body is star-shaped, all of its surface seen from one point inside, and about which point.
 
 It is where (x - c) . grad F < 0 all over the surface: every ray from the centre c then leaves it once. That is so about any
-point inside a convex term (all exponents at least 1, no sign negative); else it is proved box by box, as the exact ranges of the
-strip functions bound that product, too.
+point inside a convex term (all exponents at least 1, no sign negative), and about the point where all strips of a term are 0;
+else it is proved box by box, as the exact ranges of the strip functions bound that product, too.
 """
 
 from __future__ import annotations
@@ -41,14 +41,12 @@ def star_centre(terms: Terms, region: Region) -> Array:
     Raises NotStarShaped where none is found.
     """
     points, normals = _seen(terms, region)
-    if not len(points):
-        raise NotStarShaped("expected a body with a surface to see, got none")
     for _ in range(_CENTRES):
         centre = _best_centre(terms, region, points, normals)
         room = np.sum(normals * (points - centre), axis=1)
-        if not np.min(room) > 0:
-            raise _turned_away(centre, points[np.argmin(room)])
-        hidden = np.empty((0, 3)) if _convex(terms) else _hidden(terms, region, centre)
+        if not (np.min(room, initial=np.inf) > 0 and log_ratio(terms, centre) > 0):
+            raise _turned_away(centre, points[np.argmin(room)] if len(points) else region.centre)
+        hidden = np.empty((0, 3)) if _plainly(terms, centre) else _hidden(terms, region, centre)
         if not len(hidden):
             return centre
         more = _on_surface(terms, hidden)
@@ -72,8 +70,17 @@ def _turned_away(centre: Array, spot: Array) -> NotStarShaped:
     return NotStarShaped(f"expected a body all seen from one point inside, got one turned away from ({c}) at ({x})")
 
 
-def _convex(terms: Terms) -> bool:
-    return len(terms) == 1 and not terms.hyperbolic and bool(np.all(terms.inner >= 1) and np.all(terms.outer >= 1))
+def _plainly(terms: Terms, centre: Array) -> bool:
+    """Whether the one term that there is grows along every ray from the centre: it is convex, or all its strips are 0 there."""
+    if len(terms) > 1 or terms.hyperbolic or not terms.positive.all():
+        return False
+    return bool(np.all(terms.inner >= 1) and np.all(terms.outer >= 1)) or not np.any(_at(terms, centre))
+
+
+def _at(terms: Terms, centre: Array) -> Array:
+    """The strip functions h (S,) at the centre; exactly 0 where rounding alone keeps them from it."""
+    at = terms.normal @ centre + terms.offset
+    return np.where(np.abs(at) <= _ROUNDING * (np.abs(terms.normal) @ np.abs(centre) + np.abs(terms.offset)), 0.0, at)
 
 
 def _middle(term: Terms) -> Array:
@@ -111,7 +118,7 @@ def _roomiest(points: Array, normals: Array, region: Region) -> Array:
     from scipy.optimize import linprog  # late: it is slow to load
 
     rows = np.column_stack([normals, np.ones(len(points))])
-    bounds = [*zip(region.low, region.high, strict=True), (None, None)]
+    bounds = [*zip(region.low, region.high, strict=True), (None, np.linalg.norm(region.size))]
     return np.asarray(linprog((0, 0, 0, -1), rows, np.sum(normals * points, axis=1), bounds=bounds).x[:3])
 
 
@@ -175,8 +182,7 @@ def _strip_slopes(terms: Terms, low: Array, high: Array, centre: Array) -> tuple
     With h turned so that h(c) >= 0, f falls up to h = h(c) (g - 1) / g and grows from there on; but for g < 1 it has a pole at
     h = 0, and for g = 1 a leap.
     """
-    at = terms.normal @ centre + terms.offset
-    at = np.where(np.abs(at) <= _ROUNDING * (np.abs(terms.normal) @ np.abs(centre) + np.abs(terms.offset)), 0.0, at)[:, None]
+    at = _at(terms, centre)[:, None]
     low, high, at = np.where(at < 0, -high, low), np.where(at < 0, -low, high), np.abs(at)
     g = terms.inner[:, None]
 

@@ -139,6 +139,14 @@ def test_a_cusp_is_seen_from_its_own_point_alone() -> None:
     judge(scene, centre, spread(200))
 
 
+def test_what_is_too_fine_to_be_seen_is_refused() -> None:
+    """Spikes that no ray meets, and whose middle is lost to rounding."""
+    strips = tuple(Strip(normal=axis, gamma=0.05, offset=0.3) for axis in (X, Y, Z, (0.3, 0.4, 0.5)))
+    scene = Scene(shapes=(Shape(strips=strips),))
+    with pytest.raises(NotStarShaped, match="expected a body all seen from one point inside"):
+        star_centre(Terms.of(scene), region(scene))
+
+
 @pytest.mark.parametrize("apart", [0.6, 0.9, 1.2, 2.0, 3.0])
 def test_two_balls_that_flow_together_and_come_apart(apart: float) -> None:
     """Of two equal balls the waist is seen from the middle as long as they are one body, and not when they are two."""
