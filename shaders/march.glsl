@@ -23,7 +23,6 @@ const float SHORTEST = 5e-4;  // lengths in the unit frame; light need not be ex
 const float SHORTEST = 4e-6;
 #endif
 const float OVERSTEP = 1e-5;  // past a cell's border, where the next one's list is asked for
-const int NEWTON_STEPS = 64;
 
 struct March {
     float t;     // no surface before this
@@ -102,25 +101,20 @@ vec3 convex_sum(vec3 x, vec3 direction)
 }
 
 // H^(1 / least exponent) of a lone convex shape is convex and nearly straight: Newton's steps never pass the surface.
-void march_convex(Ray ray, inout March march)
+void march_on(Ray ray, inout March march)
 {
-    for (int i = 0; i < NEWTON_STEPS; ++i) {
-        vec3 sum = convex_sum(ray.origin + march.t * ray.direction, ray.direction);
-        if (sum.x <= lone_constant) {
-            march.phase = march.t == 0.0 ? INSIDE : HIT;
-            return;
-        }
-        float rest = exp2(log2(lone_constant / sum.x) / least_exponent) - 1.0;
-        float step = max(least_exponent * sum.x / sum.y * rest, sum.z);
-        march.t += step;
-        if (sum.y >= 0.0 || march.t > march.far) {
-            march.phase = MISS;
-            return;
-        }
-        if (step < 2e-7 * (1.0 + march.t))
-            break;
+    vec3 sum = convex_sum(ray.origin + march.t * ray.direction, ray.direction);
+    if (sum.x <= lone_constant) {
+        march.phase = march.t == 0.0 ? INSIDE : HIT;
+        return;
     }
-    march.phase = HIT;
+    float rest = exp2(log2(lone_constant / sum.x) / least_exponent) - 1.0;
+    float step = max(least_exponent * sum.x / sum.y * rest, sum.z);
+    march.t += step;
+    if (sum.y >= 0.0 || march.t > march.far)
+        march.phase = MISS;
+    else if (step < 2e-7 * (1.0 + march.t))
+        march.phase = HIT;
 }
 #else
 // Squeezed into -1 .. 1, nearly straight near 0: what a false position can be guessed from when L is of any size.
@@ -202,11 +196,6 @@ void march_on(Ray ray, inout March march)
 // At most `steps` more looks.
 void march_some(Ray ray, int steps, inout March march)
 {
-#ifdef CONVEX
-    if (march.phase == SEARCHING)
-        march_convex(ray, march);
-#else
     for (int i = 0; i < steps && march.phase < HIT; ++i)
         march_on(ray, march);
-#endif
 }

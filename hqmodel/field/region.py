@@ -203,12 +203,12 @@ class _Parts:
     def _of(self, part: Indices) -> Terms:
         key = part.tobytes()
         if key not in self._own:
-            low, high = _cell_box(self._box, np.full(3, _PARTS), part)
+            low, high = _cell_box(self._box, np.full(3, float(_PARTS)), part)
             self._own[key] = relevant_terms(self._terms, low, high, _FAINT)
         return self._own[key]
 
 
-def _cell_box(box: Array, counts: Array, cells: Array) -> tuple[Array, Array]:
+def _cell_box(box: Array, counts: Array, cells: Array | Indices) -> tuple[Array, Array]:
     """Corners of cells, numbered along each axis; the outermost lie exactly on the box."""
     low, high = box
     share = cells / counts, (cells + 1) / counts
