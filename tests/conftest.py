@@ -30,7 +30,7 @@ def display() -> Iterator[str]:
     if shutil.which("Xvfb") is None:
         pytest.fail("the window tests need a display: install Xvfb (on Debian and Ubuntu: xvfb)")
     read, write = os.pipe()
-    command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x800x24", "-nolisten", "tcp"]
+    command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x800x24", "-nolisten", "tcp", "-noreset"]
     with subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL) as server:
         os.close(write)
         with os.fdopen(read) as stream:

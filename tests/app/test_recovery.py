@@ -16,7 +16,7 @@ from hqmodel.app.intents import Answer, Do, Put
 from hqmodel.app.session import Session
 from hqmodel.edit import new_scene
 
-from .test_window import ROOT, SECONDS, surroundings
+from .outside import ROOT, SECONDS, surroundings
 
 GAMMA = ("shapes", 0, "strips", 0, "gamma")
 

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import os
 import re
-import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
-from typing import TypeVar
 
 import pytest
 
@@ -19,21 +15,13 @@ from hqmodel.app.view import restored
 from hqmodel.edit import new_scene
 from hqmodel.model import Camera
 
-T = TypeVar("T")
-ROOT = Path(__file__).parents[2]
+from .outside import ROOT, SECONDS, Outside, surroundings
+
 SCENARIOS = [
     f"{module.stem}:{name}"
     for module in sorted(Path(__file__).parent.glob("scenarios*.py"))
     for name in re.findall(r"^def (\w+)\(hands: Hands\) -> None:", module.read_text(), re.MULTILINE)
 ]
-SECONDS = 240
-
-
-def surroundings(display: str, folder: Path) -> dict[str, str]:
-    """The window's environment: its settings and all that it writes stay in the test's folder, Mesa draws."""
-    folders = {f"XDG_{name}_HOME": str(folder / name.lower()) for name in ("CONFIG", "STATE", "CACHE", "DATA")}
-    paths = os.pathsep.join([str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])])
-    return {**os.environ, **folders, "HOME": str(folder), "DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1", "PYTHONPATH": paths}
 
 
 def test_there_are_scenarios() -> None:
@@ -95,39 +83,7 @@ def test_without_a_display_it_says_so_in_one_sentence(tmp_path: Path) -> None:
     assert "hqmodel export" in ended.stdout
 
 
-class Outside:
-    """The window as somebody at the machine has it: a process, a title, a mouse and a keyboard."""
-
-    def __init__(self, display: str, folder: Path, preset: Path) -> None:
-        self.environment = surroundings(display, folder)
-        code = f"from pathlib import Path; from hqmodel.app import run; run(Path({str(preset)!r}))"
-        self.process = subprocess.Popen([sys.executable, "-c", code], env=self.environment, cwd=folder)
-        self.window = self.until(lambda: self.tool("search", "--onlyvisible", "--name", " - hqmodel$")).split()[0]
-        self.tool("windowmove", self.window, "0", "0")
-        self.tool("windowfocus", "--sync", self.window)
-
-    def tool(self, *arguments: str) -> str:
-        """What xdotool says; empty where it finds nothing."""
-        command = ["xdotool", *arguments]
-        return subprocess.run(command, env=self.environment, capture_output=True, text=True, timeout=SECONDS).stdout.strip()
-
-    def title(self) -> str:
-        return self.tool("getwindowname", self.window)
-
-    def until(self, condition: Callable[[], T]) -> T:
-        """What the condition gives as soon as it gives something."""
-        deadline = time.monotonic() + SECONDS
-        while time.monotonic() < deadline:
-            assert self.process.poll() is None, "the window has closed"
-            found = condition()
-            if found:
-                return found
-            time.sleep(0.1)
-        raise AssertionError(f"waited {SECONDS} seconds in vain")
-
-
 def test_from_outside_a_drag_turns_the_view_and_keys_work(display: str, tmp_path: Path) -> None:
-    assert shutil.which("xdotool"), "this test needs xdotool: install it (on Debian and Ubuntu: xdotool)"
     preset = tmp_path / "outside.json"
     scene = new_scene()
     files.save(scene, preset)
@@ -153,5 +109,4 @@ def test_from_outside_a_drag_turns_the_view_and_keys_work(display: str, tmp_path
         window.tool("key", "ctrl+q")
         assert window.process.wait(SECONDS) == 0
     finally:
-        window.process.kill()
-        window.process.wait()
+        window.end()

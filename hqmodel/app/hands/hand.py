@@ -10,7 +10,7 @@ from imgui_bundle import imgui
 from hqmodel.gpu import Legend, Seen
 from hqmodel.model import Scene
 
-from ..intents import Choose, Intent, Look, Pull, Select, Take
+from ..intents import Choose, Intent, Look, Pull, Release, Select, Take
 from ..navigation import Button, Pointer, navigated
 from ..session import Session
 from ..tools import reach
@@ -126,7 +126,7 @@ def _pressed(session: Session, hand: Hand, aim: Aim) -> list[Intent]:
     travelled = hand.at[0] - hand.pressed[0], hand.at[1] - hand.pressed[1]
     hand.moved = hand.moved or max(map(abs, travelled)) > STILL
     if not imgui.is_item_active():
-        return _let_go(session, hand, aim)
+        return _let_go(session, hand, aim, travelled)
     if hand.taking is None or not hand.moved:
         return []
     gesture, hand.taking = hand.taking, None
@@ -143,11 +143,13 @@ def _press(session: Session, hand: Hand, aim: Aim) -> None:
         hand.taking = reach.taken(session.kit, scene, session.selection, aim, hand.at, grip, known_handles(session, aim))
 
 
-def _let_go(session: Session, hand: Hand, aim: Aim) -> list[Intent]:
+def _let_go(session: Session, hand: Hand, aim: Aim, travelled: Pixels) -> list[Intent]:
     io = imgui.get_io()
-    button, boxing, moved = hand.button, hand.boxing, hand.moved
+    button, boxing, moved, taking = hand.button, hand.boxing, hand.moved, hand.taking
     hand.button, hand.boxing, hand.taking = None, False, None
     add = io.key_ctrl or io.key_shift
+    if taking is not None and moved:  # all of the drag in one slow frame
+        return [Take(taking), Pull(Held(taking, travelled)), Release()]
     if boxing and moved:
         return [Choose(reach.boxed(session.scene, aim, hand.pressed, hand.at), add)]
     if button != "left" or moved:
