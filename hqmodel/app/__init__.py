@@ -21,10 +21,10 @@ def run(path: Path | None = None, change: Callable[[Scene], Scene] | None = None
 
     from .asks import Open
     from .display import require
-    from .intents import Edit
+    from .intents import Do, Edit
     from .session import Session
 
-    require()
+    scale = require()
     from .window import Window
 
     session = Session(Settings.read())
@@ -32,5 +32,7 @@ def run(path: Path | None = None, change: Callable[[Scene], Scene] | None = None
         session.apply([Open(path)])
     if change is not None:
         session.apply([Edit("Command line", change)])
+    if path is None and not session.settings.preferences.get("toured"):
+        session.apply([Do("tour")])
     session.offer(lost())
-    Window(session).run()
+    Window(session, scale=scale).run()

@@ -12,7 +12,7 @@ from hqmodel.edit.dimension import FLAT
 from hqmodel.field import Plane, region
 from hqmodel.model import VIEWS, Scene, Strip
 
-from .asks import About, ChooseFile, ExportAs, ExportSettings, New, Palette, Problem, Quit, Shortcuts
+from .asks import About, ChooseFile, ExportAs, ExportSettings, New, Palette, Problem, Quit, Shortcuts, Tour
 from .catalogue import catalogue
 from .intents import Choose, Edit, Equip, Select
 from .tools.arranging import AXES
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from .session import Session
 
 THEMES = ("dark", "light")
+# Of everything in the window, in hundredths of its usual size.
+SIZES = (80, 90, 100, 110, 125, 150, 175, 200)
 PANELS = ("Outliner", "Presets", "Properties", "Scene", "Timeline")
 # Not shown before they are asked for.
 HIDDEN = ("Timeline",)
@@ -331,6 +333,14 @@ def _palette(session: Session) -> None:
     session.dialogs.append(Palette(catalogue(session, ACTIONS, MENUS)))
 
 
+def _in_size(percent: int, session: Session) -> bool:
+    return session.percent == percent
+
+
+def _set_size(percent: int, session: Session) -> None:
+    session.keep(session.settings.preferring(percent=percent))
+
+
 _KEYS = {"front": "Num 1", "right": "Num 3", "top": "Num 7", "back": "Ctrl+Num 1", "left": "Ctrl+Num 3", "bottom": "Ctrl+Num 7"}
 
 _HELD = {"move": ("Move", "G"), "turn": ("Turn", "R"), "scale": ("Scale", "S"), "harden": ("Hardness", "H")}
@@ -392,8 +402,13 @@ ACTIONS: dict[str, Action] = {
         f"theme {name}": Action(name.capitalize(), partial(_set_theme, name), (), _always, partial(_in_theme, name))
         for name in THEMES
     },
+    **{
+        f"size {percent}": Action(f"{percent} %", partial(_set_size, percent), (), _always, partial(_in_size, percent))
+        for percent in SIZES
+    },
     "palette": Action("Find a Command...", _palette, ("Ctrl+P",)),
     "shortcuts": Action("Shortcuts", lambda s: s.dialogs.append(Shortcuts(catalogue(s, ACTIONS, MENUS))), ("F1",)),
+    "tour": Action("Tour", lambda s: s.dialogs.append(Tour())),
     "about": Action("About", lambda s: s.dialogs.append(About())),
 }
 
@@ -431,6 +446,7 @@ MENUS: dict[str, tuple[Entry, ...]] = {
         None,
         ("Panels", (*(f"panel {name}" for name in PANELS), "reset layout")),
         ("Theme", tuple(f"theme {name}" for name in THEMES)),
+        ("Size", tuple(f"size {percent}" for percent in SIZES)),
     ),
-    "Help": ("palette", "shortcuts", None, "about"),
+    "Help": ("palette", "shortcuts", "tour", None, "about"),
 }

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from . import actions
-from .asks import ChooseFile, Dialog, ExportAs, ExportSettings, Open, Overwrite, Palette, Recover, Recovered, Unsaved
+from .asks import ChooseFile, Dialog, ExportAs, ExportSettings, Open, Overwrite, Palette, Recover, Recovered, Tour, Unsaved
 
 if TYPE_CHECKING:
     from .session import Session
@@ -36,6 +36,8 @@ def take(session: Session, dialog: Dialog, value: object) -> None:
             session.save_chosen(path)
         case ChooseFile(purpose="export"), Path() as path:
             _export_to(session, path)
+        case Tour(), _:
+            session.keep(session.settings.preferring(toured=True))
         case Palette(), str() as name:
             actions.perform(session, name)
         case ExportAs(), ExportSettings() as settings:

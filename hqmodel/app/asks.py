@@ -148,8 +148,15 @@ class Shortcuts:
 
 
 @dataclass(frozen=True)
+class Tour:
+    """A few words about each part of the window, for who has never seen it."""
+
+    step: int = 0
+
+
+@dataclass(frozen=True)
 class About:
     """What this program is."""
 
 
-Dialog = Unsaved | Overwrite | Recover | ChooseFile | Problem | ExportAs | Exported | Palette | Shortcuts | About
+Dialog = Unsaved | Overwrite | Recover | ChooseFile | Problem | ExportAs | Exported | Palette | Shortcuts | Tour | About

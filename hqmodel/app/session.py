@@ -117,6 +117,12 @@ class Session:
         return chosen if chosen in actions.THEMES else actions.THEMES[0]
 
     @property
+    def percent(self) -> int:
+        """How large everything in the window is, in hundredths of its usual size."""
+        chosen = self.settings.preferences.get("percent")
+        return chosen if chosen in actions.SIZES else 100
+
+    @property
     def refining(self) -> bool:
         """Whether the picture gets better while nothing happens; a slow machine may do without."""
         return self.settings.preferences.get("refining") is not False

@@ -39,9 +39,9 @@ SLICE_BAR = 2.6
 
 
 class Window:
-    """Draws a session until it is finished. `params` is what hello_imgui runs."""
+    """Draws a session until it is finished. `params` is what hello_imgui runs; `scale` the screen's, where that won't find it."""
 
-    def __init__(self, session: Session, native_dialogs: bool = True) -> None:
+    def __init__(self, session: Session, native_dialogs: bool = True, scale: float = 1.0) -> None:
         self.session = session
         session.wake = hello_imgui.request_refresh
         self.guard = Guard(session)
@@ -56,9 +56,11 @@ class Window:
         self._dropped: list[Path] = []
         self._title = ""
         self._stirred = 0.0
-        self._themed: tuple[str, float] | None = None
+        self._themed: tuple[str, float, float] | None = None
         self.panels = self._panels()
         self.params = self._parameters()
+        if scale != 1.0:
+            self.params.dpi_aware_params.dpi_window_size_factor = scale
 
     def run(self) -> None:
         """Until it is closed. Should drawing itself fail, what is not saved is kept before that goes on."""
@@ -225,7 +227,7 @@ class Window:
         return self.session.finished
 
     def _restyle(self) -> None:
-        wanted = self.session.theme, hello_imgui.dpi_window_size_factor()
+        wanted = self.session.theme, hello_imgui.dpi_window_size_factor(), self.session.percent / 100
         if wanted != self._themed:
             theme.apply(*wanted)
             self._themed = wanted

@@ -6,10 +6,10 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
-from ..asks import About, ChooseFile, Dialog, ExportAs, Exported, Overwrite, Palette, Problem, Recover, Shortcuts, Unsaved
+from ..asks import About, ChooseFile, Dialog, ExportAs, Exported, Overwrite, Palette, Problem, Recover, Shortcuts, Tour, Unsaved
 from ..intents import Answer, Ask, Intent
 from ..session import Session
-from . import about, chooser, exporting, palette, problem, recover, shortcuts, unsaved
+from . import about, chooser, exporting, palette, problem, recover, shortcuts, tour, unsaved
 from .buttons import untouched
 
 _DRAWN: dict[type[Dialog], Callable[[Dialog], list[Intent]]] = {
@@ -22,6 +22,7 @@ _DRAWN: dict[type[Dialog], Callable[[Dialog], list[Intent]]] = {
     Exported: exporting.draw_report,
     Palette: palette.draw,
     Shortcuts: shortcuts.draw,
+    Tour: tour.draw,
     About: about.draw,
 }
 _FLAGS = imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_saved_settings
@@ -68,4 +69,6 @@ def _title(dialog: Dialog) -> str:
             return "Commands"
         case Shortcuts():
             return "Shortcuts"
+        case Tour():
+            return "Welcome to hqmodel"
     return "About hqmodel"
