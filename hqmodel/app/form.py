@@ -24,6 +24,7 @@ class Memory:
 
     spans: dict[str, tuple[float, float]] = field(default_factory=dict)
     angles: dict[str, tuple[Sequence[float], Sequence[float]]] = field(default_factory=dict)
+    turns: dict[str, tuple[Scene, float]] = field(default_factory=dict)
 
 
 class Form:

@@ -14,7 +14,8 @@ from hqmodel.app.intents import Do, Edit, Equip, Look, Select
 from hqmodel.app.tools.aim import Aim
 from hqmodel.app.tools.handles import handles
 from hqmodel.app.tools.kit import TOOLS, Kit
-from hqmodel.field import world_planes
+from hqmodel.edit.frames import frame_of
+from hqmodel.field import frame_residual, world_planes
 from hqmodel.files.dump import dumps
 from hqmodel.model import Camera, Scene
 
@@ -363,6 +364,28 @@ def pulled_out_of_the_body(hands: Hands) -> None:
     drag(hands, towards / 2, towards / 2)
     assert session.scene.shapes == before.shapes
     once(hands, "Push plane", patted)
+
+
+def a_frame_is_turned(hands: Hands) -> None:
+    """The shape's frame: replaced by a ready-made one, turned in four-space in one step, made orthonormal again."""
+    session = hands.session
+    begin(hands, "ball")
+    session.apply([Select(0)])
+    hands.settle()
+    hands.click("//Properties/Frame in four-space")
+    hands.click("//Properties/##start")
+    hands.click("//$FOCUSED/tetrahedron")
+    assert len(session.scene.shapes[0].strips) == 4
+    framed = session.scene
+    hands.drag("//Properties/##turn xt", 40)
+    rows = frame_of(session.scene, 0)
+    assert not np.allclose(rows, frame_of(framed, 0))
+    assert frame_residual(rows) < 1e-12, "turned, it is as orthonormal as before"
+    once(hands, "Turn frame", framed)
+    session.apply([Edit("spoil", lambda scene: edit.put(scene, "shapes[0].strips[1].normal", (1, 0.2, 0)))])
+    hands.settle()
+    hands.click("//Properties/Make Orthonormal")
+    assert frame_residual(frame_of(session.scene, 0)) < 1e-12
 
 
 def first_session(hands: Hands) -> None:

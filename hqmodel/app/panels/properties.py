@@ -12,6 +12,7 @@ from hqmodel.model import FIELDS, Shape, Strip
 from ..form import Form, Memory
 from ..intents import Do, Edit, Intent, Put, Select
 from ..session import Session
+from . import frame
 from .naming import shape_name, strip_label, strip_name
 
 _SIGNS = {"Closed (+)": 1, "Hyperbolic (-)": -1}
@@ -50,6 +51,8 @@ def _shape(form: Form, index: int, shape: Shape) -> None:
         _mirror(form, index, shape)
     if shape.groups and heading("Groups"):
         _groups(form, index, shape)
+    if heading("Frame in four-space", opened=False):
+        frame.draw(form, index)
 
 
 def _strips(form: Form, index: int, shape: Shape) -> None:
@@ -147,13 +150,13 @@ def _group(form: Form, index: int, number: int, shape: Shape) -> None:
     imgui.end_combo()
 
 
-def heading(title: str) -> bool:
-    """A section that folds; whether it is open."""
+def heading(title: str, opened: bool = True) -> bool:
+    """A section that folds, open at first or not; whether it is open."""
     imgui.spacing()
     imgui.push_style_color(imgui.Col_.header, imgui.get_style_color_vec4(imgui.Col_.table_header_bg))
-    opened = imgui.collapsing_header(title, imgui.TreeNodeFlags_.default_open)
+    shown = imgui.collapsing_header(title, imgui.TreeNodeFlags_.default_open if opened else imgui.TreeNodeFlags_.none)
     imgui.pop_style_color()
-    return bool(opened)
+    return bool(shown)
 
 
 def _help(name: str) -> str:
