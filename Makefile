@@ -43,6 +43,7 @@ bench: system-run $(VENV)/.installed-for-benchmarks
 	$(BIN)/python -m benchmarks.meshers --large
 	$(BIN)/python -m benchmarks.accuracy
 	$(BIN)/python -m benchmarks.accuracy --cells 128 --gamma 400
+	$(BIN)/python -m benchmarks.preview
 	$(BIN)/python -m benchmarks.solvers
 
 pictures: system-test $(VENV)/.installed
