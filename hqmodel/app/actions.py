@@ -14,6 +14,7 @@ from hqmodel.model import VIEWS, Scene, Strip
 
 from .asks import About, ChooseFile, ExportAs, ExportSettings, New, Palette, Problem, Quit, Shortcuts, Tour
 from .catalogue import catalogue
+from .importing import ENDINGS
 from .intents import Choose, Edit, Equip, Select
 from .tools.arranging import AXES
 from .tools.kit import TOOLS
@@ -26,9 +27,9 @@ if TYPE_CHECKING:
 THEMES = ("dark", "light")
 # Of everything in the window, in hundredths of its usual size.
 SIZES = (80, 90, 100, 110, 125, 150, 175, 200)
-PANELS = ("Outliner", "Presets", "Properties", "Scene", "Timeline")
+PANELS = ("Outliner", "Presets", "Properties", "Scene", "Timeline", "Landscape")
 # Not shown before they are asked for.
-HIDDEN = ("Timeline",)
+HIDDEN = ("Timeline", "Landscape")
 
 
 def _always(_: Session) -> bool:
@@ -92,13 +93,21 @@ def _versions(session: Session) -> None:
         session.dialogs.append(ChooseFile("open", files.backup_folder(session.document.path)))
 
 
-def _exporting(session: Session) -> bool:
-    return session.export is not None
+def _import(session: Session) -> None:
+    session.dialogs.append(ChooseFile("import", session.folder, endings=ENDINGS))
+
+
+def _show_cloud(session: Session) -> None:
+    session.cloud_hidden = not session.cloud_hidden
+
+
+def _working(session: Session) -> bool:
+    return session.job is not None
 
 
 def _stop_export(session: Session) -> None:
-    if session.export is not None:
-        session.export.cancel()
+    if session.job is not None:
+        session.job.cancel()
 
 
 def _export(session: Session) -> None:
@@ -353,8 +362,10 @@ ACTIONS: dict[str, Action] = {
     "save": Action("Save", _save, ("Ctrl+S",)),
     "save as": Action("Save As...", _save_as, ("Ctrl+Shift+S",)),
     "versions": Action("Earlier Versions...", _versions, (), _has_versions),
-    "export": Action("Export...", _export, ("Ctrl+E",), lambda s: s.export is None),
-    "stop export": Action("Stop the Export", _stop_export, (), _exporting),
+    "export": Action("Export...", _export, ("Ctrl+E",), lambda s: s.job is None),
+    "import": Action("Import and Fit...", _import, ("Ctrl+I",), lambda s: s.job is None),
+    "stop export": Action("Stop What Is Under Way", _stop_export, (), _working),
+    "cloud": Action("Imported Points", _show_cloud, (), lambda s: s.cloud is not None, lambda s: not s.cloud_hidden),
     "quit": Action("Quit", lambda s: s.leave(Quit()), ("Ctrl+Q",)),
     "undo": Action("Undo", lambda s: s.undo(), ("Ctrl+Z",), lambda s: s.history.can_undo, None, lambda s: s.history.undo_label),
     "redo": Action(
@@ -417,7 +428,7 @@ RECENT = "recent"
 
 # The menu bar: names of actions, None for a line between, a pair for a menu within; RECENT stands for the recent files.
 MENUS: dict[str, tuple[Entry, ...]] = {
-    "File": ("new", "open", RECENT, None, "save", "save as", "versions", None, "export", "stop export", None, "quit"),
+    "File": ("new", "open", RECENT, None, "save", "save as", "versions", None, "import", "export", "stop export", None, "quit"),
     "Edit": ("undo", "redo", None, "select all", "select none", None, "duplicate", "delete", "move up", "move down"),
     "Add": (*(f"add {kind}" for kind in edit.PRIMITIVES), *(f"add prism {n}" for n in PRISMS), None, "add strip"),
     "Shape": (
@@ -437,6 +448,7 @@ MENUS: dict[str, tuple[Entry, ...]] = {
         None,
         ("Section", tuple(f"section {axis}" for axis in AXES)),
         "ghosts",
+        "cloud",
         "refine",
         None,
         "frame all",

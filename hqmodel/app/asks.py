@@ -15,7 +15,7 @@ from hqmodel.files import Lost
 if TYPE_CHECKING:
     from .catalogue import Command
 
-Purpose = Literal["open", "save", "export"]
+Purpose = Literal["open", "save", "export", "import"]
 Unit = Literal["mm", "cm", "m", "in"]
 Up = Literal["y", "z"]
 Choice = Literal["save", "discard"]
@@ -84,10 +84,15 @@ class ChooseFile:
     replacing: bool = False
 
     @property
+    def reading(self) -> bool:
+        """Whether the file is to be read, and so must be there."""
+        return self.purpose in ("open", "import")
+
+    @property
     def path(self) -> Path:
         """What is chosen so far; a file to be written gets the first ending where it has none of them."""
         path = self.folder / self.name
-        if self.purpose == "open" or path.suffix.lower() in self.endings:
+        if self.reading or path.suffix.lower() in self.endings:
             return path
         return path.with_name(path.name + self.endings[0])
 
@@ -120,6 +125,22 @@ class ExportAs:
     """How the body shall be exported. Answered by ExportSettings."""
 
     settings: ExportSettings
+
+
+@dataclass(frozen=True)
+class ImportSettings:
+    """What is fitted to which points: so many bodies, or as many as it takes, of at most so many strips each."""
+
+    path: Path
+    parts: int | None = 1
+    strips: int = 8
+
+
+@dataclass(frozen=True)
+class ImportAs:
+    """How points or a mesh shall be fitted. Answered by ImportSettings."""
+
+    settings: ImportSettings
 
 
 @dataclass(frozen=True)
@@ -159,4 +180,6 @@ class About:
     """What this program is."""
 
 
-Dialog = Unsaved | Overwrite | Recover | ChooseFile | Problem | ExportAs | Exported | Palette | Shortcuts | Tour | About
+Dialog = (
+    Unsaved | Overwrite | Recover | ChooseFile | Problem | ExportAs | Exported | ImportAs | Palette | Shortcuts | Tour | About
+)

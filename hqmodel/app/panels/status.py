@@ -48,7 +48,7 @@ def notice(session: Session) -> str:
 
 def _export(session: Session) -> list[Intent]:
     """Progress and a way out, while an export is on its way."""
-    job = session.export
+    job = session.job
     if job is None:
         return []
     imgui.progress_bar(job.progress, (imgui.get_font_size() * 14, 0), f"{job.stage} {job.progress:.0%}")
