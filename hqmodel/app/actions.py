@@ -14,6 +14,7 @@ from hqmodel.model import VIEWS, Scene, Strip
 
 from .asks import About, ChooseFile, ExportAs, ExportSettings, New, Palette, Problem, Quit, Shortcuts, Tour
 from .catalogue import catalogue
+from .forecast import Forecast
 from .importing import ENDINGS
 from .intents import Choose, Edit, Equip, Select
 from .tools.arranging import AXES
@@ -117,7 +118,8 @@ def _export(session: Session) -> None:
         session.dialogs.append(Problem("Nothing to export", (reason,)))
         return
     path = session.folder / session.document.file_name
-    session.dialogs.append(ExportAs(ExportSettings(path.with_suffix(".glb"))))
+    told = Forecast(session.scene, session.wake).told
+    session.dialogs.append(ExportAs(ExportSettings(path.with_suffix(".glb")), told))
 
 
 UNBOUNDED = "The body runs on without end: give it bounds in the Scene panel, the box that it is cut by."
@@ -293,6 +295,14 @@ def _switch_ghosts(session: Session) -> None:
     session.view = replace(session.view, ghosts=not session.view.ghosts)
 
 
+def _flat(session: Session) -> bool:
+    return session.scene.dimension == 2
+
+
+def _switch_bands(session: Session) -> None:
+    session.view = replace(session.view, bands=not session.view.bands)
+
+
 def _refining(session: Session) -> bool:
     return session.refining
 
@@ -404,6 +414,7 @@ ACTIONS: dict[str, Action] = {
         for axis in AXES
     },
     "ghosts": Action("Carving Shapes as Ghosts", _switch_ghosts, (), _always, lambda s: s.view.ghosts),
+    "bands": Action("Bands", _switch_bands, (), _flat, lambda s: s.view.bands),
     "refine": Action("Refine at Rest", _switch_refining, (), _always, _refining),
     "frame all": Action("Frame All", _frame_all, ("Home",)),
     "frame selected": Action("Frame Selected", _frame_selected, ("F", "Num .")),
@@ -448,6 +459,7 @@ MENUS: dict[str, tuple[Entry, ...]] = {
         None,
         ("Section", tuple(f"section {axis}" for axis in AXES)),
         "ghosts",
+        "bands",
         "cloud",
         "refine",
         None,

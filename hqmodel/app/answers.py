@@ -66,4 +66,4 @@ def _export_to(session: Session, path: Path) -> None:
     """The chosen file goes into the export dialog that asked for it."""
     asking = session.dialogs[-1]
     if isinstance(asking, ExportAs):
-        session.dialogs[-1] = ExportAs(replace(asking.settings, path=path))
+        session.dialogs[-1] = replace(asking, settings=replace(asking.settings, path=path))

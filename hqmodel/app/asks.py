@@ -5,7 +5,7 @@ How each dialog is drawn is in `dialogs`.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 Purpose = Literal["open", "save", "export", "import"]
 Unit = Literal["mm", "cm", "m", "in"]
 Up = Literal["y", "z"]
+Method = Literal["cubes", "radial"]
 Choice = Literal["save", "discard"]
 Overtaken = Literal["overwrite", "elsewhere"]
 
@@ -112,6 +113,7 @@ class ExportSettings:
 
     path: Path
     resolution: int = 256
+    method: Method = "cubes"
     target_faces: int | None = None
     unit: Unit | None = None
     size: float | None = None
@@ -122,9 +124,10 @@ class ExportSettings:
 
 @dataclass(frozen=True)
 class ExportAs:
-    """How the body shall be exported. Answered by ExportSettings."""
+    """How the body shall be exported. Answered by ExportSettings. `told` says what that will come to, as far as is known."""
 
     settings: ExportSettings
+    told: Callable[[ExportSettings], str] = field(default=lambda _: "", compare=False)
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,10 @@ class ExportJob(Job[Exported]):
 
         started = perf_counter()
         settings, suffix = self.settings, self.settings.path.suffix.lower()
-        body = mesh.polygonize(self._scene, settings.resolution, self._report, target_faces=settings.target_faces)
+        if settings.method == "radial":
+            body = mesh.radial_quads(self._scene, settings.resolution, self._report)
+        else:
+            body = mesh.polygonize(self._scene, settings.resolution, self._report, target_faces=settings.target_faces)
         self._report(0.9, "Measuring")
         report = mesh.report(body)
         fitted = mesh.fitted(body, suffix, unit=settings.unit, size=settings.size, up=settings.up)

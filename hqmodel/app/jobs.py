@@ -6,11 +6,14 @@ import threading
 import traceback
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from time import monotonic
 from typing import Generic, TypeVar
 
 from .asks import Problem
 
 T = TypeVar("T")
+# The share that must be done before the rest can be judged by it.
+_TELLING = 0.08
 
 
 class Cancelled(BaseException):
@@ -33,6 +36,7 @@ class Job(ABC, Generic[T]):
         self.outcome: T | Problem | None = None
         self.cancelled = False
         self._wake = wake
+        self._started = monotonic()
         self._thread = threading.Thread(target=self._run, name=self.noun, daemon=True)
         self._thread.start()
 
@@ -47,6 +51,13 @@ class Job(ABC, Generic[T]):
     @property
     def running(self) -> bool:
         return self._thread.is_alive()
+
+    @property
+    def remaining(self) -> float | None:
+        """Seconds that it will take yet, going by what is done; None where that can't be said."""
+        if self.progress < _TELLING:
+            return None
+        return (monotonic() - self._started) * (1 - self.progress) / self.progress
 
     def cancel(self) -> None:
         """Stop at the next report of progress; what was there before stays as it was."""
