@@ -26,8 +26,8 @@ _UNITS: dict[Unit | Literal[""], str] = {
     "in": "Inches",
 }
 _METHODS: dict[Method, str] = {
-    "cubes": "Marching cubes: any body, triangles where they are needed",
-    "radial": "Radial grid: star-shaped bodies, all quads, with UVs",
+    "cubes": "Marching cubes: any body",
+    "radial": "Radial grid: star-shaped, quads with UVs",
 }
 # What most people want for a purpose: ending, unit, longest side, triangles at most.
 _PURPOSES: dict[str, tuple[str, Unit | None, float | None, int | None]] = {
