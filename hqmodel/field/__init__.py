@@ -19,6 +19,7 @@ from .frames import PLANES, frame_residual, nearest_frame, slice_range, turned_f
 from .generators import FEWEST_TERMS, FRAMES, SOLIDS, make_frame
 from .intervals import box_bounds, relevant_terms, segment_bounds
 from .landscape import Landscape, landscape
+from .lines import bounding_lines
 from .plane import Plane
 from .radial import RadialSolution, approximate_radii, radial_solution
 from .rays import first_hits
@@ -44,6 +45,7 @@ __all__ = [
     "Region",
     "Terms",
     "approximate_radii",
+    "bounding_lines",
     "box_bounds",
     "curvature",
     "face",

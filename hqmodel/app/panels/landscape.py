@@ -1,11 +1,11 @@
-"""The landscape of a flat scene: its sum of exponentials as hills over the plane, and the level plane that cuts the body out of them.
+"""The landscape of a flat scene: its sum of exponentials as hills over the plane, and the level plane that cuts the body out.
 
 The figures 16 to 18 of Hanson 1988, to be turned, and the level to be dragged up and down.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from imgui_bundle import imgui, implot3d
@@ -39,7 +39,7 @@ _FLAT_ONLY = (
 
 @dataclass
 class Ground:
-    """What the panel remembers: the land and its colours, worked out once for the shapes they belong to; from where it is seen."""
+    """What the panel remembers: the land and its colours, worked out once for the shapes, and where it is seen from."""
 
     land: Landscape | None = None
     colors: NDArray[np.uint32] = field(default_factory=lambda: np.empty(0, dtype=np.uint32))
@@ -101,7 +101,8 @@ def _plotted(ground: Ground, scene: Scene, size: imgui.ImVec2) -> tuple[Array, A
     curve = land.section(level).reshape(-1, 3)
     if len(curve):
         spec = implot3d.Spec(line_color=_CURVE, line_weight=2.5, flags=implot3d.LineFlags_.segments)
-        implot3d.plot_line("section", *np.ascontiguousarray(curve.T), spec)
+        x, y, z = np.ascontiguousarray(curve.T)
+        implot3d.plot_line("section", x, y, z, spec)
     corners = land.points[[0, -1, -1, 0], [0, 0, -1, -1], :2]
     poles = [[implot3d.plot_to_pixels(x, y, height) for height in (bottom, top)] for x, y in corners.tolist()]
     implot3d.end_plot()
@@ -139,8 +140,8 @@ def _handled(scene: Scene, ground: Ground, size: imgui.ImVec2, corner: imgui.ImV
 
 
 def _surface(name: str, points: Array, spec: implot3d.Spec) -> None:
-    side = len(points)
-    implot3d.plot_surface(name, *np.ascontiguousarray(points.reshape(-1, 3).T), side, side, 0.0, 0.0, spec)
+    x, y, z = np.ascontiguousarray(points.reshape(-1, 3).T)
+    implot3d.plot_surface(name, x, y, z, len(points), len(points), 0.0, 0.0, spec)
 
 
 def _colors(scene: Scene, land: Landscape, height: tuple[float, float]) -> NDArray[np.uint32]:
@@ -149,8 +150,8 @@ def _colors(scene: Scene, land: Landscape, height: tuple[float, float]) -> NDArr
     own = mixed_colors(scene, Terms.of(scene), land.points * [1, 1, 0]) * risen + _GROUND * (1 - risen)
     x, y = land.points[:, 0, 0], land.points[0, :, 1]
     steep = _STEEP * float(np.max(land.high - land.low)) / (height[1] - height[0])
-    slope = np.stack(np.gradient(land.heights * steep, x, y), axis=-1)
-    normal = np.concatenate([-slope, np.ones((*slope.shape[:2], 1))], axis=-1)
+    along_x, along_y = np.gradient(land.heights * steep, x, y)
+    normal = np.stack([-along_x, -along_y, np.ones_like(along_x)], axis=-1)
     light = np.maximum(normal @ _LIGHT / np.linalg.norm(normal, axis=-1) / np.linalg.norm(_LIGHT), 0.0)
     shaded = np.clip(own * (0.4 + 0.7 * light[..., None]) * 255, 0, 255).astype(np.uint32)
     return (0xFF000000 | shaded[..., 2] << 16 | shaded[..., 1] << 8 | shaded[..., 0]).ravel()
