@@ -281,14 +281,17 @@ def _switch_projection(session: Session) -> None:
 
 
 def _section(axis: str, session: Session) -> None:
-    """The body cut in its middle, across this axis; once more, whole again."""
-    normal, cut = AXES[axis], session.view.cut
-    middle = float(session.region.centre @ normal)
-    session.view = replace(session.view, cut=None if cut and cut.normal == normal else Plane(normal, middle))
+    """The body cut in its middle, across this axis, the half nearer to the eye gone; once more, whole again."""
+    if _sectioned(axis, session):
+        session.view = replace(session.view, cut=None)
+        return
+    x, y, z = AXES[axis]
+    normal = (x, y, z) if session.view.camera.axes()[2] @ (x, y, z) >= 0 else (-x, -y, -z)
+    session.view = replace(session.view, cut=Plane(normal, float(session.region.centre @ normal)))
 
 
 def _sectioned(axis: str, session: Session) -> bool:
-    return session.view.cut is not None and session.view.cut.normal == AXES[axis]
+    return session.view.cut is not None and tuple(map(abs, session.view.cut.normal)) == AXES[axis]
 
 
 def _switch_ghosts(session: Session) -> None:
