@@ -33,16 +33,17 @@ Span strip_span(float a, float b, float gamma, bool below, vec4 shift, inout vec
     float touch = first ? u.x : u.y;
     float away = first ? u.y : u.x;
     float rise = a * b <= 0.0 ? 0.0 : min(gamma * (away - touch) / max(touch, 1e-30), 1e7);
+    bool touches_0 = below && a * b <= 0.0;
     bool chord = (gamma >= 1.0) != below;
     vec2 from = chord ? e : vec2(first ? e.x : e.y);
     vec2 slope = first ? vec2(1.0, 1.0 + rise) : vec2(1.0 + rise, 1.0);
 #ifdef HYPERBOLIC
     vec2 line = powers(from, shift.zw) * (chord ? vec2(1.0) : slope);
-    top = max(top, vec4(e, from));
+    top = max(top, vec4(e, touches_0 ? vec2(0.0) : from)); // a line that is 0 must not make the others vanish beside it
 #else
     vec2 line = chord ? v : (first ? v.x : v.y) * slope;
 #endif
-    if (below && a * b <= 0.0)
+    if (touches_0)
         line = vec2(0.0);
     return Span(v, line);
 }
