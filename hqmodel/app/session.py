@@ -13,7 +13,7 @@ from time import monotonic
 from hqmodel import edit, files
 from hqmodel.edit.sweeping import animate
 from hqmodel.field import Region, region
-from hqmodel.model import Camera, Scene
+from hqmodel.model import Camera, Scene, usual
 
 from . import actions, answers
 from .asks import (
@@ -416,7 +416,7 @@ class Session:
         self._region = document.scene, region(document.scene)
         self.selection = Selection((0,)).within(document.scene)
         view = restored(document.scene.view)
-        self.view = view or View()
+        self.view = view or View(usual(document.scene.dimension))
         if view is None:
             self.frame(self.region)
         self._untouched = view is None

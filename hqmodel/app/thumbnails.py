@@ -12,6 +12,7 @@ import hqmodel
 from hqmodel import files
 from hqmodel.field import region
 from hqmodel.gpu import Preview
+from hqmodel.model import usual
 
 from .view import View, restored
 
@@ -76,7 +77,7 @@ class Thumbnails:
         self._preview = Preview(self._ctx)
         self._preview.show(scene)
         box = region(scene)
-        view = restored(scene.view) or View()
+        view = restored(scene.view) or View(usual(scene.dimension))
         self._view = view.moved(view.camera.framing(box.low, box.high))
 
     def _finish(self, pixels: NDArray[np.uint8] | None) -> None:

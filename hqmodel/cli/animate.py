@@ -11,13 +11,13 @@ from typing import Annotated, Literal
 import typer
 
 from hqmodel.edit import Animation, EditError, animation_at, filmed, staged, sweep_of
-from hqmodel.model import Camera, Scene, remembered, shown
+from hqmodel.model import Camera, Scene, remembered, shown, usual
 
 from .faults import INPUT, MACHINE, USAGE, Fault
 from .options import Json, Preset, Quiet, Set, Slice, scene_of
 from .outputs import checked, tell
 from .progress import Report, progress
-from .views import Azimuth, Elevation, Mode, Size, View, drawable, looking, pixels, usual
+from .views import Azimuth, Elevation, Mode, Size, View, drawable, looking, pixels
 
 FPS = 25.0
 _MOST = 10_000

@@ -8,11 +8,13 @@ from typing import Annotated
 
 import typer
 
+from hqmodel.model import usual
+
 from .faults import MACHINE, Fault
 from .options import PLANE_HELP, Json, Preset, Quiet, Set, Slice, plane_of, scene_of
 from .outputs import checked, tell, writing
 from .progress import progress
-from .views import Azimuth, Elevation, Mode, Size, View, drawable, looking, pixels, usual
+from .views import Azimuth, Elevation, Mode, Size, View, drawable, looking, pixels
 
 Output = Annotated[Path, typer.Option("-o", "--output", metavar="FILE.png", help="The picture.")]
 Cut = Annotated[str | None, typer.Option("--cut", metavar="AXIS=D", help=f"Cut the body open by a plane: {PLANE_HELP}")]

@@ -46,11 +46,6 @@ def looking(camera: Camera, view: str | None, azimuth: float | None, elevation: 
     return camera
 
 
-def usual(dimension: int) -> Camera:
-    """Looking from the side that a body of that dimension is looked at from where nothing else is said."""
-    return Camera().looking("top" if dimension == 2 else "iso")
-
-
 def drawable(mode: str) -> None:
     """Fault for what is no mode of drawing."""
     from hqmodel import gpu  # late: a preset at fault is told at once

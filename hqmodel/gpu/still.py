@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hqmodel.field import Plane, Terms, region
-from hqmodel.model import Camera, Scene
+from hqmodel.model import Camera, Scene, usual
 
 from .context import framebuffer_kept, offscreen
 from .floor import floor_height
@@ -39,7 +39,7 @@ def render(
 ) -> NDArray[np.uint8]:
     """The scene as the preview shows it, (height, width, 4) of sRGB, opaque, top row first.
 
-    Without a camera the body is framed from the standard view. What lies in front of the plane `cut` is left out, and the cut is
+    Without a camera the body is framed from its usual side. What lies in front of the plane `cut` is left out, and the cut is
     shown filled. `progress` is told the share done (0..1) and what is being done;
     whatever it raises ends the work. Raises GpuError without OpenGL, ValueError for a mode that is
     none of `MODES`.
@@ -48,7 +48,7 @@ def render(
     terms = Terms.of(scene)
     where = region(scene, terms)
     if camera is None:
-        camera = Camera().framing(where.low, where.high, size[0] / size[1])
+        camera = usual(scene.dimension).framing(where.low, where.high, size[0] / size[1])
     memory = SceneMemory(own)
     memory.write(scene, terms, where)
     shot = shot_of(camera, size, mode, cut, where, memory, floor_height(own, memory, where))

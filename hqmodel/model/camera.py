@@ -138,6 +138,11 @@ def _triple(values: Array) -> tuple[float, float, float]:
     return x, y, z
 
 
+def usual(dimension: int) -> Camera:
+    """Looking from the side that a body of that dimension is looked at from where nothing else is said."""
+    return Camera().looking("top" if dimension == 2 else "iso")
+
+
 def remembered(stored: object) -> Camera | None:
     """The camera that a preset keeps in its `view`, what is left out being as usual; None where it can't be used."""
     if not isinstance(stored, Mapping):

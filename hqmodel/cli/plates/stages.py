@@ -12,10 +12,9 @@ from PIL import Image
 from hqmodel import gpu
 from hqmodel.edit import Animation, animation_at, filmed, staged
 from hqmodel.field import Region, region
-from hqmodel.model import Camera, Scene, remembered
+from hqmodel.model import Camera, Scene, remembered, usual
 from hqmodel.outline import Outline, outline
 
-from ..views import usual
 from . import flat
 from .landscape import draw_landscape, land_of
 from .lettering import label
