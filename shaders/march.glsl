@@ -184,7 +184,9 @@ void march_on(Ray ray, inout March march)
             return;
         }
     }
-    float passed = shortest ? dt : ahead.line.x < 0.0 ? 0.999 * dt * ahead.line.x / (ahead.line.x - ahead.line.y) : 0.0;
+    // beyond the ceiling values are logarithms, and where a line crosses 0 can't be told from them
+    bool crosses = ahead.line.x < 0.0 && ahead.line.y < CEILING;
+    float passed = shortest ? dt : crosses ? 0.999 * dt * ahead.line.x / (ahead.line.x - ahead.line.y) : 0.0;
     float next = ahead.line.x < 0.0 ? 0.6 * (dt - passed) : 0.35 * dt;
     if (enters && guess > passed)
         next = min(next, 1.1 * (guess - passed) + 0.25 * SHORTEST);
