@@ -49,6 +49,7 @@ bench: system-run $(VENV)/.installed-for-benchmarks
 
 pictures: system-test $(VENV)/.installed
 	LIBGL_ALWAYS_SOFTWARE=1 xvfb-run -a -s "-screen 0 1400x900x24" $(BIN)/python docs/pictures.py
+	LIBGL_ALWAYS_SOFTWARE=1 $(BIN)/python -m docs.lessons
 
 # What the golden tests compare with; look at each picture before committing it.
 goldens: system-test $(VENV)/.installed-for-tests
