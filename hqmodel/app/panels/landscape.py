@@ -29,6 +29,8 @@ _STEEP, _RATE, _ELEVATION, _AZIMUTH = 0.8, 0.4, 30.0, -60.0
 # How much of the panel the land takes.
 _SIZE = 1.4
 _GROUND = 0.62
+# How far the curve is drawn before the land that it lies on, by the land's size.
+_AHEAD = 0.03
 _LIGHT = np.array([-0.45, -0.35, 0.82])
 _PLANE, _CURVE = (0.35, 0.5, 0.72, 0.35), (1.0, 1.0, 1.0, 1.0)
 _LEVEL = ("level",)
@@ -101,7 +103,9 @@ def _plotted(ground: Ground, scene: Scene, size: imgui.ImVec2) -> tuple[Array, A
     curve = land.section(level).reshape(-1, 3)
     if len(curve):
         spec = implot3d.Spec(line_color=_CURVE, line_weight=2.5, flags=implot3d.LineFlags_.segments)
-        x, y, z = np.ascontiguousarray(curve.T)
+        into = implot3d.pixels_to_plot_ray(implot3d.get_plot_rect_pos()).direction
+        ahead = _AHEAD * float(np.min(land.high - land.low)) * np.array([into.x, into.y, into.z])
+        x, y, z = np.ascontiguousarray((curve - ahead).T)
         implot3d.plot_line("section", x, y, z, spec)
     corners = land.points[[0, -1, -1, 0], [0, 0, -1, -1], :2]
     poles = [[implot3d.plot_to_pixels(x, y, height) for height in (bottom, top)] for x, y in corners.tolist()]
