@@ -12,10 +12,10 @@ from imgui_bundle import imgui, implot3d
 from numpy.typing import NDArray
 
 from hqmodel.field import Landscape, Terms, landscape, mixed_colors
-from hqmodel.model import FIELDS, Scene, Shape
+from hqmodel.model import FIELDS, Scene
 
 from ..form import Form, Memory
-from ..intents import Grab, Intent, Put
+from ..intents import Grab, Intent, Put, Stop
 from ..session import Session
 from ..theme import ACCENT
 
@@ -46,19 +46,21 @@ class Ground:
     land: Landscape | None = None
     colors: NDArray[np.uint32] = field(default_factory=lambda: np.empty(0, dtype=np.uint32))
     height: tuple[float, float] = 0.0, 1.0
+    cut: bool = False
     elevation: float = _ELEVATION
     azimuth: float = _AZIMUTH
-    _shapes: tuple[Shape, ...] = ()
-    _slice: float = 0.0
+    _of: tuple[object, ...] = ()
 
     def under(self, scene: Scene) -> Landscape:
         """The land of a scene, no higher and no deeper than is shown; the level does not change it."""
-        if self.land is None or (scene.shapes, scene.slice) != (self._shapes, self._slice):
-            self._shapes, self._slice = scene.shapes, scene.slice
+        shown = scene.shapes, scene.slice, scene.bounds
+        if self.land is None or shown != self._of:
+            self._of = shown
             found, tallest = landscape(scene, _SQUARES), max(_TALLEST, 2 * abs(scene.level))
-            cut = np.clip(found.heights, -tallest, tallest)
-            self.land = Landscape(np.concatenate([found.points[..., :2], cut[..., None]], axis=-1))
-            self.height = min(0.0, float(cut.min())), max(float(cut.max()), 1e-3)
+            heights = np.clip(found.heights, -tallest, tallest)
+            self.cut = not np.array_equal(heights, found.heights)
+            self.land = Landscape(np.concatenate([found.points[..., :2], heights[..., None]], axis=-1))
+            self.height = min(0.0, float(heights.min())), max(float(heights.max()), 1e-3)
             self.colors = _colors(scene, self.land, self.height)
         return self.land
 
@@ -70,18 +72,23 @@ def draw(session: Session, memory: Memory, ground: Ground) -> list[Intent]:
         return []
     form = Form(session.scene, memory)
     form.number(_LEVEL)
-    scene, size = session.shown, imgui.get_content_region_avail()
+    scene = session.shown
+    land = ground.under(scene)
+    if ground.cut:
+        imgui.text_disabled(f"Cut off at {max(ground.height[1], -ground.height[0]):g}")
+    size = imgui.get_content_region_avail()
     if min(size.x, size.y) < 4 * imgui.get_font_size():
         return form.intents
     corner = imgui.get_cursor_screen_pos()
-    foot, top = _plotted(ground, scene, size)
-    return form.intents + _handled(session.scene, ground, size, corner, foot, top)
+    foot, top = _plotted(ground, land, scene.level, size)
+    _turned(ground, size, corner)
+    return form.intents + _knob(session.scene, ground, foot, top)
 
 
-def _plotted(ground: Ground, scene: Scene, size: imgui.ImVec2) -> tuple[Array, Array]:
+def _plotted(ground: Ground, land: Landscape, level: float, size: imgui.ImVec2) -> tuple[Array, Array]:
     """Draw the land, the plane and its curve; the ends of the pole that the knob slides on, in pixels of the screen."""
-    land, (bottom, top) = ground.under(scene), ground.height
-    level = min(max(scene.level, bottom), top)
+    bottom, top = ground.height
+    level = min(max(level, bottom), top)
     if implot3d.get_current_context() is None:
         implot3d.create_context()
     flags = implot3d.Flags_.canvas_only | implot3d.Flags_.no_inputs
@@ -100,6 +107,14 @@ def _plotted(ground: Ground, scene: Scene, size: imgui.ImVec2) -> tuple[Array, A
     plane = land.points.copy()
     plane[..., 2] = level
     _surface("level", plane, implot3d.Spec(fill_color=_PLANE, flags=implot3d.SurfaceFlags_.no_lines))
+    _section(land, level)
+    foot, head = _pole(land, bottom, top)
+    implot3d.end_plot()
+    return foot, head
+
+
+def _section(land: Landscape, level: float) -> None:
+    """The curve where the plane cuts the land, a little before it, so that none of it is hidden by what it lies on."""
     curve = land.section(level).reshape(-1, 3)
     if len(curve):
         spec = implot3d.Spec(line_color=_CURVE, line_weight=2.5, flags=implot3d.LineFlags_.segments)
@@ -107,29 +122,36 @@ def _plotted(ground: Ground, scene: Scene, size: imgui.ImVec2) -> tuple[Array, A
         ahead = _AHEAD * float(np.min(land.high - land.low)) * np.array([into.x, into.y, into.z])
         x, y, z = np.ascontiguousarray((curve - ahead).T)
         implot3d.plot_line("section", x, y, z, spec)
+
+
+def _pole(land: Landscape, bottom: float, top: float) -> tuple[Array, Array]:
+    """The upright edge of the land's box that is farthest to the right."""
     corners = land.points[[0, -1, -1, 0], [0, 0, -1, -1], :2]
-    poles = [[implot3d.plot_to_pixels(x, y, height) for height in (bottom, top)] for x, y in corners.tolist()]
-    implot3d.end_plot()
-    foot, head = max(poles, key=lambda pole: pole[0].x)
+    edges = [[implot3d.plot_to_pixels(x, y, height) for height in (bottom, top)] for x, y in corners.tolist()]
+    foot, head = max(edges, key=lambda edge: edge[0].x)
     return np.array([foot.x, foot.y]), np.array([head.x, head.y])
 
 
-def _handled(scene: Scene, ground: Ground, size: imgui.ImVec2, corner: imgui.ImVec2, foot: Array, top: Array) -> list[Intent]:
-    """A drag anywhere turns the land; one at the knob, on its pole from foot to top (2,), moves the level, in one undo step."""
+def _turned(ground: Ground, size: imgui.ImVec2, corner: imgui.ImVec2) -> None:
+    """A drag anywhere in the picture turns the land."""
     imgui.set_cursor_screen_pos(corner)
     imgui.set_next_item_allow_overlap()
     imgui.invisible_button("##turn", size)
-    moved = imgui.get_io().mouse_delta
     if imgui.is_item_active():
+        moved = imgui.get_io().mouse_delta
         ground.azimuth += _RATE * moved.x
         ground.elevation = min(max(ground.elevation + _RATE * moved.y, 0.0), 90.0)
+
+
+def _knob(scene: Scene, ground: Ground, foot: Array, top: Array) -> list[Intent]:
+    """The knob on its pole from foot to top (2,): a drag moves the level, in one undo step."""
     low, high = ground.height
-    pole, radius = top - foot, 0.5 * imgui.get_font_size()
+    moved, pole, radius = imgui.get_io().mouse_delta, top - foot, 0.5 * imgui.get_font_size()
     share = min(max((scene.level - low) / (high - low), 0.0), 1.0)
     knob = foot + share * pole
     imgui.set_cursor_screen_pos((knob[0] - 1.5 * radius, knob[1] - 1.5 * radius))
     imgui.invisible_button("##knob", (3 * radius, 3 * radius))
-    intents: list[Intent] = [Grab(_LEVEL, FIELDS["level"].label)] if imgui.is_item_activated() else []
+    intents: list[Intent] = [Stop(), Grab(_LEVEL, FIELDS["level"].label)] if imgui.is_item_activated() else []
     active, length = imgui.is_item_active(), float(pole @ pole)
     if not active:
         imgui.set_item_tooltip("Drag the level plane up or down")
