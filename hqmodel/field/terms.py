@@ -60,14 +60,19 @@ class Terms:
         return len(self.term_start)
 
     @cached_property
-    def grouped(self) -> bool:
-        """Whether any group holds more than one strip or has an exponent of its own."""
-        return len(self.group_start) < len(self.inner) or bool(np.any(self.outer != self.inner[self.group_start]))
-
-    @cached_property
     def hyperbolic(self) -> bool:
         """Whether any sign is negative."""
         return bool(np.any(self.group_sign < 0))
+
+    @cached_property
+    def strips(self) -> list[tuple[int, int]]:
+        """The first of each group's strips, and the one after its last."""
+        return _runs(self.group_start, len(self.inner))
+
+    @cached_property
+    def groups(self) -> list[tuple[int, int]]:
+        """The first of each term's groups, and the one after its last."""
+        return _runs(self.term_start, len(self.group_start))
 
     @cached_property
     def group_of_strip(self) -> Indices:
@@ -88,6 +93,11 @@ class Terms:
     def log_coefficient(self) -> Array:
         """(K,) ln |c|."""
         return np.log(np.abs(self.coefficient))
+
+    @cached_property
+    def log_level(self) -> float:
+        """ln |w|; -inf where the level is 0."""
+        return float(np.log(abs(self.level))) if self.level else -np.inf
 
     @cached_property
     def positive(self) -> NDArray[np.bool_]:
@@ -115,6 +125,12 @@ class Terms:
             strip_source=self.strip_source[strips],
             term_source=self.term_source[chosen],
         )
+
+
+def _runs(starts: Indices, count: int) -> list[tuple[int, int]]:
+    """First and one after the last of each of the runs that begin at `starts` and together end at `count`."""
+    ends = [*starts.tolist(), count]
+    return list(zip(ends[:-1], ends[1:], strict=True))
 
 
 def _starts(labels: Indices) -> Indices:
