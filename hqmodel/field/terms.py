@@ -65,6 +65,11 @@ class Terms:
         return bool(np.any(self.group_sign < 0))
 
     @cached_property
+    def grouped(self) -> bool:
+        """Whether any group holds more than one strip or has an exponent of its own."""
+        return len(self.group_start) < len(self.inner) or bool(np.any(self.outer != self.inner[self.group_start]))
+
+    @cached_property
     def strips(self) -> list[tuple[int, int]]:
         """The first of each group's strips, and the one after its last."""
         return _runs(self.group_start, len(self.inner))

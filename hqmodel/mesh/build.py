@@ -23,7 +23,7 @@ from hqmodel.field import (
 from hqmodel.model import Scene
 
 from .cull import TILE, Blocks, blocks_of, tiles
-from .extract import AT_NODE, Numbers, Samples, extract
+from .extract import AT_NODE, extract
 from .finish import finished, pulls
 from .grid import Grid, make_grid
 from .mesh import Mesh, MeshError
@@ -124,7 +124,8 @@ def _piece(scene: Scene, terms: Terms, grid: Grid, tile: Blocks) -> Piece | None
     blocks = blocks_of(local, grid, tile)
     if not len(blocks):
         return None
-    patch = extract(blocks, tile, TILE, lambda nodes: _samples(local, grid, nodes))
+    size = min(TILE, max(len(nodes) - 1 for nodes in grid.nodes))
+    patch = extract(blocks, tile, size, grid, lambda points: near_linear_single(local, log_ratio(local, points), _ROUNDING))
     if patch is None or not len(patch.faces):
         return None
     node, axis, faces = patch.node, patch.axis, patch.faces
@@ -142,12 +143,3 @@ def _piece(scene: Scene, terms: Terms, grid: Grid, tile: Blocks) -> Piece | None
         faces=faces,
         off=off,
     )
-
-
-def _samples(terms: Terms, grid: Grid, nodes: Numbers) -> Samples:
-    """The near-linear field at nodes (n, 3); -inf beyond a cut."""
-    values = near_linear_single(terms, log_ratio(terms, grid.points(nodes)), _ROUNDING)
-    for i, outside in enumerate(grid.outside):
-        if outside.any():
-            values[outside[np.minimum(nodes[:, i], len(outside) - 1)]] = -np.inf
-    return values
