@@ -52,52 +52,56 @@ def extract(blocks: Blocks, tile: Blocks, size: int, grid: Grid, field: Callable
 
     `field` is its value at points (m, 3), never 0; beyond a cut all is outside. None where there is no surface.
     """
-    room, strides, table = _room.of(size + 1), np.array([(size + 1) ** 2, size + 1, 1]), tables()
+    lattice, strides, table = _lattice.of(size + 1), np.array([(size + 1) ** 2, size + 1, 1]), tables()
     first, corners = np.ascontiguousarray(blocks - tile), CORNERS @ strides
     places = [nodes[np.minimum(start + np.arange(size + 1), len(nodes) - 1)] for nodes, start in zip(grid.nodes, tile, strict=True)]
-    nodes = room.nodes[: _gather(first, *places, room.marked, room.nodes, room.points)]
-    room.samples[nodes] = field(room.points[:, : len(nodes)].T)
+    most = len(first) * (BLOCK + 1) ** 3
+    nodes, points = np.empty(most, dtype=np.int32), np.empty((3, most))
+    found = _gather(first, *places, lattice, nodes, points)
+    nodes, points = nodes[:found], points[:, :found]
+    samples = field(points.T)
     if grid.cuts:
-        room.samples[nodes[_beyond(grid, np.stack(np.unravel_index(nodes, (size + 1,) * 3)).T + tile)]] = -np.inf
-    crossed, count = _classify(
-        first, room.samples, corners, corners[_FACES], AMBIGUOUS, table.count, room.marked, room.nodes, room.kind
+        samples[_beyond(grid, np.stack(np.unravel_index(nodes, (size + 1,) * 3)).T + tile)] = -np.inf
+    cells, kind = np.empty((2, len(first) * BLOCK**3), dtype=np.int32)
+    unclear = np.zeros(found, dtype=bool)
+    crossed, count = _classify(first, lattice, samples, corners, corners[_FACES], AMBIGUOUS, table.count, unclear, cells, kind)
+    faces, vertices = np.empty((count, 3), dtype=np.int32), np.empty(3 * found, dtype=np.int32)
+    number = np.zeros((3, found), dtype=np.int32)
+    there = _triangulate(
+        cells[:crossed], kind[:crossed], corners, lattice, _EDGES, table.edges, table.start, table.count, number, vertices, faces
     )
+    node, axis = np.empty((there, 3), dtype=np.int64), np.empty(there, dtype=np.int64)
+    ends, pinched = np.empty((there, 2), dtype=np.float32), np.empty(there, dtype=bool)
+    _describe(vertices[:there], nodes, tile, strides, lattice, samples, unclear, node, axis, ends, pinched)
+    lattice[nodes] = 0
     if not crossed:
         return None
-    cells, kind = room.nodes[:crossed], room.kind[:crossed]
-    faces = np.empty((count, 3), dtype=np.int32)
-    found = _triangulate(cells, kind, corners, _EDGES, table.edges, table.start, table.count, room.number, room.vertices, faces)
-    node, axis = np.empty((found, 3), dtype=np.int64), np.empty(found, dtype=np.int64)
-    ends, pinched = np.empty((found, 2), dtype=np.float32), np.empty(found, dtype=bool)
-    _describe(room.vertices[:found], tile, strides, room.samples, room.marked, room.number, node, axis, ends, pinched)
-    _unmark(cells, corners, room.marked)
     patch = Patch(node, axis, ends, pinched, faces)
     return _without_length(patch) if grid.cuts else patch
 
 
 @compiled
 def _gather(
-    first: Numbers, x: Array, y: Array, z: Array, marked: NDArray[np.bool_], nodes: NDArray[np.int32], points: Array
+    first: Numbers, x: Array, y: Array, z: Array, lattice: NDArray[np.int32], nodes: NDArray[np.int32], points: Array
 ) -> int:
-    """The nodes of the blocks, each once, and where they lie; how many they are."""
+    """The nodes of the blocks, each once, and where they lie; how many they are. The lattice tells the number of each, plus 1."""
     side, found = len(x), 0
     for b in range(len(first)):
         for i in range(first[b, 0], first[b, 0] + BLOCK + 1):
             for j in range(first[b, 1], first[b, 1] + BLOCK + 1):
                 for k in range(first[b, 2], first[b, 2] + BLOCK + 1):
                     node = (i * side + j) * side + k
-                    if not marked[node]:
-                        marked[node] = True
+                    if lattice[node] == 0:
                         nodes[found], points[0, found], points[1, found], points[2, found] = node, x[i], y[j], z[k]
                         found += 1
-    for n in range(found):
-        marked[nodes[n]] = False
+                        lattice[node] = found
     return found
 
 
 @compiled
 def _classify(
     first: Numbers,
+    lattice: NDArray[np.int32],
     samples: Samples,
     corners: Numbers,
     rings: Numbers,
@@ -109,10 +113,10 @@ def _classify(
 ) -> tuple[int, int]:
     """The cells of the blocks that the surface crosses, by their first nodes, with their case and the faces whose inside corners
     are joined, as 64 case + joined; how many they are, and how many triangles they have. Corners of ambiguous faces are marked
-    `unclear`: those faces are joined whose saddle is inside.
+    `unclear`; joined are those faces whose saddle is inside.
     """
     crossed = triangles = 0
-    side = corners[2]  # of nodes: the stride of the second axis
+    side = corners[2]
     for b in range(len(first)):
         for i in range(first[b, 0], first[b, 0] + BLOCK):
             for j in range(first[b, 1], first[b, 1] + BLOCK):
@@ -120,16 +124,16 @@ def _classify(
                     cell = (i * side + j) * side + k
                     case = 0
                     for corner in range(8):
-                        case |= (samples[cell + corners[corner]] > 0) << corner
+                        case |= (samples[lattice[cell + corners[corner]] - 1] > 0) << corner
                     if case == 0 or case == 255:
                         continue
                     joined = 0
                     for face in range(6):
                         if ambiguous[case] >> face & 1:
-                            p, q, r, s = cell + rings[face, 0], cell + rings[face, 1], cell + rings[face, 2], cell + rings[face, 3]
-                            unclear[p] = unclear[q] = unclear[r] = unclear[s] = True
-                            even, odd = samples[p] * samples[r], samples[q] * samples[s]
-                            if (even > odd) == (samples[p] > 0) and even != odd:
+                            ring = lattice[cell + rings[face]] - 1
+                            unclear[ring] = True
+                            even, odd = samples[ring[0]] * samples[ring[2]], samples[ring[1]] * samples[ring[3]]
+                            if even != odd and (even > odd) == (samples[ring[0]] > 0):
                                 joined |= 1 << face
                     cells[crossed], kind[crossed] = cell, 64 * case + joined
                     crossed += 1
@@ -142,6 +146,7 @@ def _triangulate(
     cells: NDArray[np.int32],
     kind: NDArray[np.int32],
     corners: Numbers,
+    lattice: NDArray[np.int32],
     ends: Numbers,
     edges: Numbers,
     start: Numbers,
@@ -150,7 +155,8 @@ def _triangulate(
     vertices: NDArray[np.int32],
     faces: Triangles,
 ) -> int:
-    """The triangles of cells, into `faces`, and their vertices, as 4 node + axis; how many these are."""
+    """The triangles of cells, into `faces`, and their vertices, as 4 node + axis with nodes as the lattice numbers them; how many
+    these are."""
     found = face = 0
     for n in range(len(cells)):
         case, joined = kind[n] >> 6, kind[n] & 63
@@ -158,7 +164,7 @@ def _triangulate(
         for _ in range(count[case, joined]):
             for i in range(3):
                 corner, axis = ends[edges[at], 0], ends[edges[at], 1]
-                node = cells[n] + corners[corner]
+                node = lattice[cells[n] + corners[corner]] - 1
                 if number[axis, node] == 0:
                     vertices[found] = 4 * node + axis
                     found += 1
@@ -172,61 +178,42 @@ def _triangulate(
 @compiled
 def _describe(
     vertices: NDArray[np.int32],
+    nodes: NDArray[np.int32],
     tile: Numbers,
     strides: Numbers,
+    lattice: NDArray[np.int32],
     samples: Samples,
     unclear: NDArray[np.bool_],
-    number: NDArray[np.int32],
     node: Numbers,
     axis: Numbers,
     ends: Samples,
     pinched: NDArray[np.bool_],
 ) -> None:
-    """What a patch tells of its vertices; their numbers are taken back."""
+    """What a patch tells of its vertices."""
     for v in range(len(vertices)):
         near, along = vertices[v] >> 2, vertices[v] & 3
-        far = near + strides[along]
-        node[v, 0], node[v, 1], node[v, 2] = near // strides[0], near // strides[1] % strides[1], near % strides[1]
+        at = nodes[near]
+        far = lattice[at + strides[along]] - 1
+        node[v, 0], node[v, 1], node[v, 2] = at // strides[0], at // strides[1] % strides[1], at % strides[1]
         for i in range(3):
             node[v, i] += tile[i]
         axis[v], ends[v, 0], ends[v, 1] = along, samples[near], samples[far]
         pinched[v] = unclear[near] and unclear[far]
-        number[along, near] = 0
 
 
-@compiled
-def _unmark(cells: NDArray[np.int32], corners: Numbers, marked: NDArray[np.bool_]) -> None:
-    """Nothing is marked any more at the corners of cells."""
-    for n in range(len(cells)):
-        for corner in range(8):
-            marked[cells[n] + corners[corner]] = False
+class _Lattice(threading.local):
+    """Numbers for a tile's nodes, one set a thread, 0 before and after use: a whole tile's memory is slow to come by anew."""
+
+    numbers: NDArray[np.int32]
+
+    def of(self, side: int) -> NDArray[np.int32]:
+        """Those of a tile of so many nodes along each side."""
+        if not hasattr(self, "numbers") or len(self.numbers) != side**3:
+            self.numbers = np.zeros(side**3, dtype=np.int32)
+        return self.numbers
 
 
-class _Room(threading.local):
-    """Arrays over a tile's nodes, one set a thread, used again for every tile: fresh memory is slow to come by."""
-
-    samples: Samples
-    marked: NDArray[np.bool_]
-    number: NDArray[np.int32]
-    nodes: NDArray[np.int32]
-    kind: NDArray[np.int32]
-    points: Array
-    vertices: NDArray[np.int32]
-
-    def of(self, side: int) -> _Room:
-        """Itself, with arrays for tiles of so many nodes along each side."""
-        count = side**3
-        if not hasattr(self, "samples") or len(self.samples) != count:
-            self.samples = np.empty(count, dtype=np.float32)
-            self.marked = np.zeros(count, dtype=bool)
-            self.number = np.zeros((3, count), dtype=np.int32)
-            self.nodes, self.kind = np.empty((2, count), dtype=np.int32)
-            self.points = np.empty((3, count))
-            self.vertices = np.empty(3 * count, dtype=np.int32)
-        return self
-
-
-_room = _Room()
+_lattice = _Lattice()
 
 
 def _beyond(grid: Grid, nodes: Numbers) -> NDArray[np.bool_]:
