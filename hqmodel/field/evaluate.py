@@ -8,6 +8,7 @@ lone shape with c = w = 1 just beta (C - H): what roots are sought and grids are
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
@@ -122,21 +123,18 @@ def exponents(terms: Terms, h_sums: Array) -> Array:
 def log_balance(terms: Terms, t: Array, t_carving: Array | None = None) -> Array:
     """L (P,) from the exponents T (K, P); for bounds the carving terms may take theirs from another array."""
     p, n = log_side(terms, t, True), log_side(terms, t if t_carving is None else t_carving, False)
-    return np.where(p > -np.inf, p - n, -np.inf)
+    return p - n if np.all(p > -np.inf) else np.full(t.shape[1], -np.inf)
 
 
-def log_side(terms: Terms, t: Array, adding: bool) -> Array:
+def log_side(terms: Terms, t: Array, adding: bool) -> Array | float:
     """ln P, or ln N if not `adding`, from the exponents T (K, P), the level included; -inf where there is nothing to add."""
-    rows = [t[k] for k in np.flatnonzero(terms.positive == adding)]
+    rows: list[Array | float] = [t[k] for k in terms.sides[adding]]
     if terms.level and (terms.level < 0) == adding:
-        rows.append(np.full(t.shape[1], terms.log_level))
+        rows.append(terms.log_level)
     if len(rows) < 2:
-        return rows[0] if rows else np.full(t.shape[1], -np.inf)
-    top = np.maximum.reduce(rows)
-    total = np.exp(rows[0] - top)
-    for row in rows[1:]:
-        total += np.exp(row - top)
-    return top + np.log(total)
+        return rows[0] if rows else -np.inf
+    top = reduce(np.maximum, rows)
+    return top + np.log(sum(np.exp(row - top) for row in rows))
 
 
 class _Field:

@@ -109,6 +109,11 @@ class Terms:
         """(K,) whether each term adds."""
         return self.coefficient > 0
 
+    @cached_property
+    def sides(self) -> tuple[list[int], list[int]]:
+        """The terms that carve, and those that add."""
+        return np.flatnonzero(~self.positive).tolist(), np.flatnonzero(self.positive).tolist()
+
     def keep(self, chosen: NDArray[np.bool_]) -> Terms:
         """Only the chosen terms, (K,) booleans; the level stays."""
         if bool(np.all(chosen)):
