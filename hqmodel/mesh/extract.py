@@ -1,4 +1,4 @@
-"""Triangles of a tile's blocks by marching cubes (see `cubes`), every vertex named by its grid edge.
+"""Triangles of blocks of cells by marching cubes (see `cubes`), every vertex named by its grid edge.
 
 Only nodes of the blocks are sampled, each once, and only cells of the blocks looked at. Vertices are told apart by the edge they
 lie on, never by rounding coordinates.
@@ -47,24 +47,26 @@ class Patch:
         return ((x * ny + y) * nz + z) * (AT_NODE + 1) + self.axis
 
 
-def extract(blocks: Blocks, tile: Blocks, size: int, grid: Grid, field: Callable[[Array], Samples]) -> Patch | None:
-    """The level set 0 of a field, positive inside, in blocks (n, 3) of the tile of `size` cells whose first node is `tile` (3,).
+def extract(blocks: Blocks, grid: Grid, field: Callable[[Array], Samples]) -> Patch | None:
+    """The level set 0 of a field, positive inside, in blocks whose first nodes are `blocks` (n, 3), near to each other.
 
     `field` is its value at points (m, 3), never 0; beyond a cut all is outside. None where there is no surface.
     """
-    lattice, strides, table = _lattice.of(size + 1), np.array([(size + 1) ** 2, size + 1, 1]), tables()
-    first, corners = np.ascontiguousarray(blocks - tile), CORNERS @ strides
-    places = [nodes[np.minimum(start + np.arange(size + 1), len(nodes) - 1)] for nodes, start in zip(grid.nodes, tile, strict=True)]
+    origin = np.min(blocks, axis=0)
+    first, shape = blocks - origin, np.max(blocks, axis=0) - origin + BLOCK + 1
+    strides, table = np.array([shape[1] * shape[2], shape[2], 1]), tables()
+    lattice, corners = _lattice.of(int(np.prod(shape))), CORNERS @ strides
+    places = [nodes[start : start + count] for nodes, start, count in zip(grid.nodes, origin, shape, strict=True)]
     most = len(first) * (BLOCK + 1) ** 3
     nodes, points = np.empty(most, dtype=np.int32), np.empty((3, most))
-    found = _gather(first, *places, lattice, nodes, points)
+    found = _gather(first, *places, strides, lattice, nodes, points)
     nodes, points = nodes[:found], points[:, :found]
     samples = field(points.T)
     if grid.cuts:
-        samples[_beyond(grid, np.stack(np.unravel_index(nodes, (size + 1,) * 3)).T + tile)] = -np.inf
+        samples[_beyond(grid, np.stack(np.unravel_index(nodes, shape)).T + origin)] = -np.inf
     cells, kind = np.empty((2, len(first) * BLOCK**3), dtype=np.int32)
     unclear = np.zeros(found, dtype=bool)
-    crossed, count = _classify(first, lattice, samples, corners, corners[_FACES], AMBIGUOUS, table.count, unclear, cells, kind)
+    crossed, count = _classify(first, strides, lattice, samples, corners, corners[_FACES], AMBIGUOUS, table.count, unclear, cells, kind)
     faces, vertices = np.empty((count, 3), dtype=np.int32), np.empty(3 * found, dtype=np.int32)
     number = np.zeros((3, found), dtype=np.int32)
     there = _triangulate(
@@ -72,7 +74,7 @@ def extract(blocks: Blocks, tile: Blocks, size: int, grid: Grid, field: Callable
     )
     node, axis = np.empty((there, 3), dtype=np.int64), np.empty(there, dtype=np.int64)
     ends, pinched = np.empty((there, 2), dtype=np.float32), np.empty(there, dtype=bool)
-    _describe(vertices[:there], nodes, tile, strides, lattice, samples, unclear, node, axis, ends, pinched)
+    _describe(vertices[:there], nodes, origin, strides, lattice, samples, unclear, node, axis, ends, pinched)
     lattice[nodes] = 0
     if not crossed:
         return None
@@ -82,15 +84,22 @@ def extract(blocks: Blocks, tile: Blocks, size: int, grid: Grid, field: Callable
 
 @compiled
 def _gather(
-    first: Numbers, x: Array, y: Array, z: Array, lattice: NDArray[np.int32], nodes: NDArray[np.int32], points: Array
+    first: Numbers,
+    x: Array,
+    y: Array,
+    z: Array,
+    strides: Numbers,
+    lattice: NDArray[np.int32],
+    nodes: NDArray[np.int32],
+    points: Array,
 ) -> int:
     """The nodes of the blocks, each once, and where they lie; how many they are. The lattice tells the number of each, plus 1."""
-    side, found = len(x), 0
+    found = 0
     for b in range(len(first)):
         for i in range(first[b, 0], first[b, 0] + BLOCK + 1):
             for j in range(first[b, 1], first[b, 1] + BLOCK + 1):
                 for k in range(first[b, 2], first[b, 2] + BLOCK + 1):
-                    node = (i * side + j) * side + k
+                    node = i * strides[0] + j * strides[1] + k
                     if lattice[node] == 0:
                         nodes[found], points[0, found], points[1, found], points[2, found] = node, x[i], y[j], z[k]
                         found += 1
@@ -101,6 +110,7 @@ def _gather(
 @compiled
 def _classify(
     first: Numbers,
+    strides: Numbers,
     lattice: NDArray[np.int32],
     samples: Samples,
     corners: Numbers,
@@ -116,12 +126,11 @@ def _classify(
     `unclear`; joined are those faces whose saddle is inside.
     """
     crossed = triangles = 0
-    side = corners[2]
     for b in range(len(first)):
         for i in range(first[b, 0], first[b, 0] + BLOCK):
             for j in range(first[b, 1], first[b, 1] + BLOCK):
                 for k in range(first[b, 2], first[b, 2] + BLOCK):
-                    cell = (i * side + j) * side + k
+                    cell = i * strides[0] + j * strides[1] + k
                     case = 0
                     for corner in range(8):
                         case |= (samples[lattice[cell + corners[corner]] - 1] > 0) << corner
@@ -179,7 +188,7 @@ def _triangulate(
 def _describe(
     vertices: NDArray[np.int32],
     nodes: NDArray[np.int32],
-    tile: Numbers,
+    origin: Numbers,
     strides: Numbers,
     lattice: NDArray[np.int32],
     samples: Samples,
@@ -194,22 +203,22 @@ def _describe(
         near, along = vertices[v] >> 2, vertices[v] & 3
         at = nodes[near]
         far = lattice[at + strides[along]] - 1
-        node[v, 0], node[v, 1], node[v, 2] = at // strides[0], at // strides[1] % strides[1], at % strides[1]
+        node[v, 0], node[v, 1], node[v, 2] = at // strides[0], at % strides[0] // strides[1], at % strides[1]
         for i in range(3):
-            node[v, i] += tile[i]
+            node[v, i] += origin[i]
         axis[v], ends[v, 0], ends[v, 1] = along, samples[near], samples[far]
         pinched[v] = unclear[near] and unclear[far]
 
 
 class _Lattice(threading.local):
-    """Numbers for a tile's nodes, one set a thread, 0 before and after use: a whole tile's memory is slow to come by anew."""
+    """Numbers for the nodes of a box, one set a thread, 0 before and after use: so much memory is slow to come by anew."""
 
-    numbers: NDArray[np.int32]
+    numbers = np.zeros(0, dtype=np.int32)
 
-    def of(self, side: int) -> NDArray[np.int32]:
-        """Those of a tile of so many nodes along each side."""
-        if not hasattr(self, "numbers") or len(self.numbers) != side**3:
-            self.numbers = np.zeros(side**3, dtype=np.int32)
+    def of(self, count: int) -> NDArray[np.int32]:
+        """Those of a box of so many nodes."""
+        if len(self.numbers) < count:
+            self.numbers = np.zeros(count, dtype=np.int32)
         return self.numbers
 
 
