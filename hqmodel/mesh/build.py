@@ -23,10 +23,10 @@ from hqmodel.field import (
 from hqmodel.model import Scene
 
 from .cull import PART, TILE, Blocks, blocks_of, parts, tiles
-from .extract import AT_NODE, extract
+from .extract import AT_NODE, Patch, Samples, extract
 from .finish import finished, pulls
 from .grid import Grid, make_grid
-from .mesh import Mesh, MeshError
+from .mesh import Array, Mesh, MeshError
 from .refine import place_vertices
 from .shade import clothed
 from .weld import Piece, Weld
@@ -103,7 +103,7 @@ def _must_be_near(where: Region) -> None:
 def _pieces(scene: Scene, terms: Terms, grid: Grid, tell: Progress) -> Iterator[Piece]:
     """The tiles' pieces in order, worked out on all cores."""
     jobs = tiles(terms, grid)
-    ahead = 2 * (os.cpu_count() or 1)
+    ahead = 1 + (os.cpu_count() or 1)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         under_way = deque[Future[list[Piece]]]()
         try:
@@ -121,18 +121,26 @@ def _of_tile(scene: Scene, terms: Terms, grid: Grid, tile: Blocks) -> list[Piece
     """What a tile holds, in pieces of smaller tiles."""
     low, high = grid.corners(tile.reshape(1, 3), TILE)
     local = relevant_terms(terms, low[0], high[0])
-    pieces = (_piece(scene, local, grid, blocks) for blocks in parts(blocks_of(local, grid, tile)))
-    return [piece for piece in pieces if piece is not None]
+    field = partial(_samples, local)
+    found = (extract(blocks, grid, field) for blocks in parts(blocks_of(local, grid, tile)))
+    patches = [patch for patch in found if patch is not None and len(patch.faces)]
+    if not patches:
+        return []
+    node, axis, ends = (np.concatenate([getattr(patch, name) for patch in patches]) for name in ("node", "axis", "ends"))
+    vertices, slopes = place_vertices(local, grid, node, axis, ends)
+    starts = np.cumsum([len(patch.axis) for patch in patches])[:-1]
+    places = zip(patches, np.split(vertices, starts), np.split(slopes, starts), strict=True)
+    return [_piece(scene, local, grid, *place) for place in places]
 
 
-def _piece(scene: Scene, terms: Terms, grid: Grid, blocks: Blocks) -> Piece | None:
-    patch = extract(blocks, grid, lambda points: near_linear_single(terms, log_ratio(terms, points), _ROUNDING))
-    if patch is None or not len(patch.faces):
-        return None
-    node, axis, faces = patch.node, patch.axis, patch.faces
-    vertices, slopes = place_vertices(terms, grid, node, axis, patch.ends)
+def _samples(terms: Terms, points: Array) -> Samples:
+    return near_linear_single(terms, log_ratio(terms, points), _ROUNDING)
+
+
+def _piece(scene: Scene, terms: Terms, grid: Grid, patch: Patch, vertices: Array, slopes: Array) -> Piece:
+    axis, faces = patch.axis, patch.faces
     normals, colors, off = clothed(scene, terms, grid, vertices, slopes, faces, within=axis == AT_NODE)
-    at_border = node % min(PART, TILE) == 0
+    at_border = patch.node % min(PART, TILE) == 0
     shared = np.flatnonzero(np.logical_or.reduce([at_border[:, i] & (axis != i) for i in range(3)]))
     return Piece(
         keys=patch.keys(grid)[shared],
