@@ -123,7 +123,7 @@ def exponents(terms: Terms, h_sums: Array) -> Array:
 def log_balance(terms: Terms, t: Array, t_carving: Array | None = None) -> Array:
     """L (P,) from the exponents T (K, P); for bounds the carving terms may take theirs from another array."""
     p, n = log_side(terms, t, True), log_side(terms, t if t_carving is None else t_carving, False)
-    return p - n if np.all(p > -np.inf) else np.full(t.shape[1], -np.inf)
+    return np.full(t.shape[1], p - n if np.all(p > -np.inf) else -np.inf)
 
 
 def log_side(terms: Terms, t: Array, adding: bool) -> Array | float:

@@ -95,7 +95,7 @@ def _by_logarithm(sign: Array, logs: Array, total: Array) -> Array:
 
 
 def group_factor(outer: float, inner: float, largest: Array, spread: Array, order: int) -> Array:
-    """G m^(G-order) s^(G/g-order), (P,), from a group's exponents and what `scaled` tells of it; 0 at m = 0 unless that is m^0."""
+    """G m^(G-order) s^(G/g-order), (P,), from a group's exponents and what `scaled` tells of it; 0 at m = 0 but for m^0."""
     # m^(G-order) may underflow where s^(G/g-order) overflows: rooted before it is raised
     raised = np.minimum(power(largest * spread ** (1 / inner), outer - order), _STEEP)
     factor = outer * np.minimum(raised * spread ** (order * (1 / inner - 1)), _STEEP)

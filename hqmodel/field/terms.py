@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import product
+from itertools import pairwise, product
 from typing import Any, Self
 
 import numpy as np
@@ -140,7 +140,7 @@ class Terms:
 def _runs(starts: Indices, count: int) -> list[tuple[int, int]]:
     """First and one after the last of each of the runs that begin at `starts` and together end at `count`."""
     ends = [*starts.tolist(), count]
-    return list(zip(ends[:-1], ends[1:], strict=True))
+    return list(pairwise(ends))
 
 
 def _starts(labels: Indices) -> Indices:

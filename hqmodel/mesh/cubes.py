@@ -49,24 +49,24 @@ AMBIGUOUS = np.array(
 
 class Tables(NamedTuple):
     """The triangles of every cell: those of `case`, its ambiguous faces joined as the bits of `joined` say, are the edges
-    `edges[start[case, joined] : start[case, joined] + 3 * count[case, joined]]`."""
+    `edges[start[case, joined] : start[case, joined] + 3 * number[case, joined]]`."""
 
     edges: NDArray[np.int64]  # (n,), three to a triangle, outward
     start: NDArray[np.int64]  # (256, 64)
-    count: NDArray[np.int64]  # (256, 64)
+    number: NDArray[np.int64]  # (256, 64)
 
 
 @cache
 def tables() -> Tables:
     """Worked out once."""
-    edges, start, count = list[int](), *np.zeros((2, 256, 64), dtype=np.int64)
+    edges, start, number = list[int](), *np.zeros((2, 256, 64), dtype=np.int64)
     for case, ambiguous in enumerate(AMBIGUOUS.tolist()):
         for joined in range(64):
             if joined & ~ambiguous == 0:
                 found = triangles(case, joined)
-                start[case, joined], count[case, joined] = len(edges), len(found) // 3
+                start[case, joined], number[case, joined] = len(edges), len(found) // 3
                 edges += found
-    return Tables(np.array(edges, dtype=np.int64), start, count)
+    return Tables(np.array(edges, dtype=np.int64), start, number)
 
 
 def triangles(case: int, joined: int) -> list[int]:

@@ -22,6 +22,8 @@ from .mesh import Array, Triangles
 AT_NODE = 3
 Samples = NDArray[np.float32]
 Numbers = NDArray[np.int64]
+Nodes = NDArray[np.int32]
+Axes = NDArray[np.int8]
 _EDGES, _FACES = np.array(EDGES), np.array(FACES)
 
 
@@ -34,8 +36,8 @@ class Patch:
     tells those on faces of cells that are inside at two opposite corners only: where edges with four triangles may arise.
     """
 
-    node: Numbers
-    axis: Numbers
+    node: Nodes
+    axis: Axes
     ends: Samples
     pinched: NDArray[np.bool_]
     faces: Triangles
@@ -43,7 +45,7 @@ class Patch:
     def keys(self, grid: Grid) -> Numbers:
         """One number for each of the grid's edges, (V,)."""
         _, ny, nz = (len(nodes) for nodes in grid.nodes)
-        x, y, z = self.node.T
+        x, y, z = self.node.T.astype(np.int64)
         return ((x * ny + y) * nz + z) * (AT_NODE + 1) + self.axis
 
 
@@ -56,23 +58,25 @@ def extract(blocks: Blocks, grid: Grid, field: Callable[[Array], Samples]) -> Pa
     first, shape = blocks - origin, np.max(blocks, axis=0) - origin + BLOCK + 1
     strides, table = np.array([shape[1] * shape[2], shape[2], 1]), tables()
     lattice, corners = _lattice.of(int(np.prod(shape))), CORNERS @ strides
-    places = [nodes[start : start + count] for nodes, start, count in zip(grid.nodes, origin, shape, strict=True)]
+    x, y, z = (nodes[start : start + count] for nodes, start, count in zip(grid.nodes, origin, shape, strict=True))
     most = len(first) * (BLOCK + 1) ** 3
     nodes, points = np.empty(most, dtype=np.int32), np.empty((3, most))
-    found = _gather(first, *places, strides, lattice, nodes, points)
+    found = _gather(first, x, y, z, strides, lattice, nodes, points)
     nodes, points = nodes[:found], points[:, :found]
     samples = field(points.T)
     if grid.cuts:
         samples[_beyond(grid, np.stack(np.unravel_index(nodes, shape)).T + origin)] = -np.inf
     cells, kind = np.empty((2, len(first) * BLOCK**3), dtype=np.int32)
     unclear = np.zeros(found, dtype=bool)
-    crossed, count = _classify(first, strides, lattice, samples, corners, corners[_FACES], AMBIGUOUS, table.count, unclear, cells, kind)
+    crossed, count = _classify(
+        first, strides, lattice, samples, corners, corners[_FACES], AMBIGUOUS, table.number, unclear, cells, kind
+    )
     faces, vertices = np.empty((count, 3), dtype=np.int32), np.empty(3 * found, dtype=np.int32)
     number = np.zeros((3, found), dtype=np.int32)
     there = _triangulate(
-        cells[:crossed], kind[:crossed], corners, lattice, _EDGES, table.edges, table.start, table.count, number, vertices, faces
+        cells[:crossed], kind[:crossed], corners, lattice, _EDGES, table.edges, table.start, table.number, number, vertices, faces
     )
-    node, axis = np.empty((there, 3), dtype=np.int64), np.empty(there, dtype=np.int64)
+    node, axis = np.empty((there, 3), dtype=np.int32), np.empty(there, dtype=np.int8)
     ends, pinched = np.empty((there, 2), dtype=np.float32), np.empty(there, dtype=bool)
     _describe(vertices[:there], nodes, origin, strides, lattice, samples, unclear, node, axis, ends, pinched)
     lattice[nodes] = 0
@@ -89,8 +93,8 @@ def _gather(
     y: Array,
     z: Array,
     strides: Numbers,
-    lattice: NDArray[np.int32],
-    nodes: NDArray[np.int32],
+    lattice: Nodes,
+    nodes: Nodes,
     points: Array,
 ) -> int:
     """The nodes of the blocks, each once, and where they lie; how many they are. The lattice tells the number of each, plus 1."""
@@ -111,15 +115,15 @@ def _gather(
 def _classify(
     first: Numbers,
     strides: Numbers,
-    lattice: NDArray[np.int32],
+    lattice: Nodes,
     samples: Samples,
     corners: Numbers,
     rings: Numbers,
     ambiguous: NDArray[np.uint8],
     count: Numbers,
     unclear: NDArray[np.bool_],
-    cells: NDArray[np.int32],
-    kind: NDArray[np.int32],
+    cells: Nodes,
+    kind: Nodes,
 ) -> tuple[int, int]:
     """The cells of the blocks that the surface crosses, by their first nodes, with their case and the faces whose inside corners
     are joined, as 64 case + joined; how many they are, and how many triangles they have. Corners of ambiguous faces are marked
@@ -152,16 +156,16 @@ def _classify(
 
 @compiled
 def _triangulate(
-    cells: NDArray[np.int32],
-    kind: NDArray[np.int32],
+    cells: Nodes,
+    kind: Nodes,
     corners: Numbers,
-    lattice: NDArray[np.int32],
+    lattice: Nodes,
     ends: Numbers,
     edges: Numbers,
     start: Numbers,
     count: Numbers,
-    number: NDArray[np.int32],
-    vertices: NDArray[np.int32],
+    number: Nodes,
+    vertices: Nodes,
     faces: Triangles,
 ) -> int:
     """The triangles of cells, into `faces`, and their vertices, as 4 node + axis with nodes as the lattice numbers them; how many
@@ -186,15 +190,15 @@ def _triangulate(
 
 @compiled
 def _describe(
-    vertices: NDArray[np.int32],
-    nodes: NDArray[np.int32],
+    vertices: Nodes,
+    nodes: Nodes,
     origin: Numbers,
     strides: Numbers,
-    lattice: NDArray[np.int32],
+    lattice: Nodes,
     samples: Samples,
     unclear: NDArray[np.bool_],
-    node: Numbers,
-    axis: Numbers,
+    node: Nodes,
+    axis: Axes,
     ends: Samples,
     pinched: NDArray[np.bool_],
 ) -> None:
@@ -215,7 +219,7 @@ class _Lattice(threading.local):
 
     numbers = np.zeros(0, dtype=np.int32)
 
-    def of(self, count: int) -> NDArray[np.int32]:
+    def of(self, count: int) -> Nodes:
         """Those of a box of so many nodes."""
         if len(self.numbers) < count:
             self.numbers = np.zeros(count, dtype=np.int32)
@@ -238,7 +242,7 @@ def _without_length(patch: Patch) -> Patch:
     if not leaves.any():
         return patch
     node = node + (np.isneginf(ends[:, :1]) & (axis[:, None] == np.arange(3)))
-    axis = np.where(leaves, AT_NODE, axis)
+    axis = np.where(leaves, np.int8(AT_NODE), axis)
     _, kept, number = np.unique(np.column_stack([node, axis]), axis=0, return_index=True, return_inverse=True)
     faces = number.reshape(-1).astype(np.int32)[patch.faces]
     a, b, c = faces.T

@@ -50,7 +50,7 @@ class Grid:
         """Corners (n, 3) of cubes of `size` cells, cut off at the grid's end, whose first nodes are `blocks` (n, 3)."""
         return self.points(blocks), self.points(blocks + size)
 
-    def points(self, node: NDArray[np.int64]) -> Array:
+    def points(self, node: NDArray[np.integer]) -> Array:
         """World positions (n, 3) of nodes numbered (n, 3), those past the end at it."""
         return np.stack([nodes[np.minimum(node[:, i], len(nodes) - 1)] for i, nodes in enumerate(self.nodes)]).T
 

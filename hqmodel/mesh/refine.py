@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from hqmodel.field import Terms, log_ratio, near_linear, near_linear_gradient
 
 from .compiled import compiled
-from .extract import AT_NODE, Samples
+from .extract import AT_NODE, Axes, Nodes, Samples
 from .grid import Grid
-from .mesh import Array, dots, lengths
+from .mesh import Array, lengths
 
 # A vertex nearer to a node than this share of the edge is moved off it and back onto the surface sideways, so that the
 # vertices around a node that lies almost on the surface stay apart.
@@ -23,9 +23,7 @@ _NEARLY = 5e-3
 _PRECISE = 1e-8
 
 
-def place_vertices(
-    terms: Terms, grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64], ends: Samples
-) -> tuple[Array, Array]:
+def place_vertices(terms: Terms, grid: Grid, node: Nodes, axis: Axes, ends: Samples) -> tuple[Array, Array]:
     """World positions (V, 3), on the surface, of the vertices on the grid's edges from `node` (V, 3) along `axis` (V,), and the
     near-linear field's gradients there, (V, 3). `ends` are a patch's.
 
@@ -48,15 +46,13 @@ def place_vertices(
     return points, slopes
 
 
-def _on_edges(grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64]) -> tuple[Array, Array]:
+def _on_edges(grid: Grid, node: Nodes, axis: Axes) -> tuple[Array, Array]:
     """Where edges begin and end, (n, 3) each."""
     return grid.points(node), grid.points(node + (axis[:, None] == np.arange(3)))
 
 
 @compiled
-def _guess(
-    node: NDArray[np.int64], axis: NDArray[np.int64], ends: Samples, x: Array, y: Array, z: Array, points: Array, share: Array
-) -> None:
+def _guess(node: Nodes, axis: Axes, ends: Samples, x: Array, y: Array, z: Array, points: Array, share: Array) -> None:
     """The points, and shares of the edges, where the samples at the ends put the surface, as these are nearly linear."""
     nodes = (x, y, z)
     for v in range(len(node)):
@@ -71,8 +67,8 @@ def _guess(
 
 @compiled
 def _stepped(
-    node: NDArray[np.int64],
-    axis: NDArray[np.int64],
+    node: Nodes,
+    axis: Axes,
     x: Array,
     y: Array,
     z: Array,
@@ -82,8 +78,8 @@ def _stepped(
     share: Array,
     rest: NDArray[np.int64],
 ) -> int:
-    """One Newton step along the edges, with the field's values (V,) and slopes (3, V); where that is not enough, the vertex is one
-    of the `rest`. How many these are."""
+    """One Newton step along the edges, with the field's values (V,) and slopes (3, V); where that is not enough, the vertex is
+    one of the `rest`. How many these are."""
     nodes, count = (x, y, z), 0
     for v in range(len(node)):
         if axis[v] < AT_NODE:
@@ -99,7 +95,7 @@ def _stepped(
     return count
 
 
-def _held(grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64]) -> NDArray[np.bool_]:
+def _held(grid: Grid, node: Nodes, axis: Axes) -> NDArray[np.bool_]:
     """Coordinates (n, 3) that must not change: those in a mirror plane or a cut, across the edge."""
     held = np.zeros(node.shape, dtype=bool)
     for i, (nodes, outside) in enumerate(zip(grid.nodes, grid.outside, strict=True)):
