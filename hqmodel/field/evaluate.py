@@ -59,12 +59,8 @@ def near_linear_gradient(terms: Terms, points: ArrayLike) -> tuple[Array, Array]
 
     Their quotient is a Newton step that neither creeps from outside nor leaps from inside.
     """
-    ratio, slope = log_gradient(terms, points)
-    hard, steep = _typical(terms)
-    inner = np.maximum(1.0 - ratio / hard, 1e-300)
-    root = inner ** (1.0 / steep)
-    with np.errstate(over="ignore"):
-        return 1.0 - root, np.clip(slope * (root / inner / (hard * steep))[..., None], -HUGE, HUGE)
+    both = _by_chunk(terms, points, _near_linear_gradient, columns=4)
+    return both[..., 0], both[..., 1:]
 
 
 def curvature(terms: Terms, points: ArrayLike) -> Curvature:
@@ -207,6 +203,16 @@ def _log_gradient(field: _Field) -> Array:
         adding = bool(terms.positive[k])
         # not by np.einsum: of no point may the last bit depend on its neighbours
         result[1:] += np.exp(t[k] - sides[adding]) * (-hardness if adding else hardness) * slope
+    return result
+
+
+def _near_linear_gradient(field: _Field) -> Array:
+    result = _log_gradient(field)
+    hard, steep = _typical(field.terms)
+    inner = np.maximum(1.0 - result[0] / hard, 1e-300)
+    root = inner ** (1.0 / steep)
+    result[0] = 1.0 - root
+    result[1:] = np.clip(result[1:] * (root / inner / (hard * steep)), -HUGE, HUGE)
     return result
 
 

@@ -130,21 +130,25 @@ def _of_tile(scene: Scene, terms: Terms, grid: Grid, tile: Blocks) -> list[Piece
     vertices, slopes = place_vertices(local, grid, node, axis, ends)
     starts = np.cumsum([len(patch.axis) for patch in patches])[:-1]
     places = zip(patches, np.split(vertices, starts), np.split(slopes, starts), strict=True)
-    return [_piece(scene, local, grid, *place) for place in places]
+    settled = int(tile[0]) * grid.strides[0]
+    return [_piece(scene, local, grid, settled, *place) for place in places]
 
 
 def _samples(terms: Terms, points: Array) -> Samples:
     return near_linear_single(terms, log_ratio(terms, points), _ROUNDING)
 
 
-def _piece(scene: Scene, terms: Terms, grid: Grid, patch: Patch, vertices: Array, slopes: Array) -> Piece:
+def _piece(scene: Scene, terms: Terms, grid: Grid, settled: int, patch: Patch, vertices: Array, slopes: Array) -> Piece:
     axis, faces = patch.axis, patch.faces
     normals, colors, off = clothed(scene, terms, grid, vertices, slopes, faces, within=axis == AT_NODE)
     at_border = patch.node % min(PART, TILE) == 0
     shared = np.flatnonzero(np.logical_or.reduce([at_border[:, i] & (axis != i) for i in range(3)]))
+    keys = patch.keys(grid)[shared]
+    order = np.argsort(keys)
     return Piece(
-        keys=patch.keys(grid)[shared],
-        shared=shared,
+        keys=keys[order],
+        settled=settled,
+        shared=shared[order],
         vertices=vertices,
         normals=normals,
         colors=colors,

@@ -43,10 +43,10 @@ class Patch:
     faces: Triangles
 
     def keys(self, grid: Grid) -> Numbers:
-        """One number for each of the grid's edges, (V,)."""
-        _, ny, nz = (len(nodes) for nodes in grid.nodes)
+        """One number for each of the grid's edges, (V,), rising with the first coordinate."""
+        layer, row, step = grid.strides
         x, y, z = self.node.T.astype(np.int64)
-        return ((x * ny + y) * nz + z) * (AT_NODE + 1) + self.axis
+        return x * layer + y * row + z * step + self.axis
 
 
 def extract(blocks: Blocks, grid: Grid, field: Callable[[Array], Samples]) -> Patch | None:

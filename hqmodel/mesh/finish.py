@@ -140,13 +140,24 @@ def _balance(
     step = np.clip(np.float32(_SHARE * _QUANTUM * grid.cell) * pull[:, 0] / np.maximum(pull[:, 1], 1), -furthest, furthest)
     for axis, plane, _ in grid.cuts:
         step[vertices[:, axis] == plane] = 0
-    for i in range(3):
-        way = step * normals[:, i]
-        if i in mirrored:
-            way[vertices[:, i] == 0] = 0
-        vertices[:, i] += way
-    for i in range(3):
-        off -= step[faces[:, i]] / 3
+    _move(vertices, normals, faces, off, step, np.isin(np.arange(3), mirrored))
+
+
+@compiled
+def _move(
+    vertices: Array,
+    normals: NDArray[np.float32],
+    faces: Triangles,
+    off: NDArray[np.float32],
+    step: NDArray[np.float32],
+    mirrored: NDArray[np.bool_],
+) -> None:
+    for v in range(len(vertices)):
+        for i in range(3):
+            if not (mirrored[i] and vertices[v, i] == 0):
+                vertices[v, i] += step[v] * normals[v, i]
+    for f in range(len(faces)):
+        off[f] -= (step[faces[f, 0]] + step[faces[f, 1]] + step[faces[f, 2]]) / 3
 
 
 def _measured(

@@ -36,6 +36,12 @@ class Grid:
         return x, y, z
 
     @property
+    def strides(self) -> tuple[int, int, int]:
+        """How far apart neighbouring nodes along each axis are in a count of them that leaves four numbers to each."""
+        _, ny, nz = (len(nodes) for nodes in self.nodes)
+        return 4 * ny * nz, 4 * nz, 4
+
+    @property
     def cuts(self) -> list[tuple[int, float, float]]:
         """The planes that cut the body: axis, coordinate, and the side that is cut away."""
         planes = []

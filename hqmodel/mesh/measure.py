@@ -42,7 +42,8 @@ def largest_distance(terms: Terms, vertices: Array, faces: Triangles, off: NDArr
     if not len(faces):
         return 0.0
     count = min(len(faces), 200 + len(faces) // 1000)
-    worst = vertices[faces[np.argpartition(np.abs(off), -count)[-count:]]].mean(axis=1)
+    least = np.partition(np.abs(off), -count)[-count]
+    worst = vertices[faces[np.flatnonzero(np.abs(off) >= least)[:count]]].mean(axis=1)
     return float(np.max(lengths(to_surface(terms, worst, stride, rounds=6)[0] - worst)))
 
 
