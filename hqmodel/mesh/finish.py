@@ -140,7 +140,7 @@ def _balance(
     step = np.clip(np.float32(_SHARE * _QUANTUM * grid.cell) * pull[:, 0] / np.maximum(pull[:, 1], 1), -furthest, furthest)
     for axis, plane, _ in grid.cuts:
         step[vertices[:, axis] == plane] = 0
-    _move(vertices, normals, faces, off, step, np.isin(np.arange(3), mirrored))
+    _move(vertices, normals, faces, off, step.astype(np.float32, copy=False), np.isin(np.arange(3), mirrored))
 
 
 @compiled
