@@ -15,7 +15,7 @@ DISPLAYS := xvfb xauth xdotool
 SUITABLE := -c 'import sys, ensurepip; sys.exit(sys.version_info < (3, 11))' 2>/dev/null
 NEEDS_PYTHON := $(if $(wildcard $(BIN)/python),,$(shell for p in $(PYTHONS); do $$p $(SUITABLE) && exit; done; echo python3-venv))
 
-.PHONY: run test demo bench pictures schema clean system-run system-test
+.PHONY: run test demo bench pictures goldens schema clean system-run system-test
 .DEFAULT_GOAL := run
 
 run: system-run $(VENV)/.installed
@@ -43,9 +43,15 @@ bench: system-run $(VENV)/.installed-for-benchmarks
 	$(BIN)/python -m benchmarks.meshers --large
 	$(BIN)/python -m benchmarks.accuracy
 	$(BIN)/python -m benchmarks.accuracy --cells 128 --gamma 400
+	$(BIN)/python -m benchmarks.preview
+	$(BIN)/python -m benchmarks.solvers
 
 pictures: system-test $(VENV)/.installed
 	LIBGL_ALWAYS_SOFTWARE=1 xvfb-run -a -s "-screen 0 1400x900x24" $(BIN)/python docs/pictures.py
+
+# What the golden tests compare with; look at each picture before committing it.
+goldens: system-test $(VENV)/.installed-for-tests
+	LIBGL_ALWAYS_SOFTWARE=1 $(BIN)/python -m tests.gpu.goldens
 
 schema: $(VENV)/.installed
 	$(BIN)/python -c "from hqmodel.files import schema_text; print(schema_text(), end='')" > presets/hqmodel-1.schema.json

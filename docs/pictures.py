@@ -9,11 +9,13 @@ import os
 import subprocess
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 from PIL import Image, ImageGrab
 
 import hqmodel
+from hqmodel.edit import framed_scene
 
 IMAGES = Path(__file__).parent / "images"
 SHOWN = (
@@ -22,18 +24,34 @@ SHOWN = (
     ("tetrahedral-slice", "teddy", "pawn", "butterfly"),
 )
 TILE = (320, 240)
+SOLIDS = (
+    ("tetrahedron", "octahedron", "cube", "icosahedron", "dodecahedron", "rhombic-dodecahedron"),
+    ("truncated-tetrahedron", "truncated-octahedron", "truncated-cube", "truncated-icosahedron", "truncated-dodecahedron",
+     "rhombic-triacontahedron"),
+    ("cuboctahedron", "rhombicuboctahedron", "truncated-cuboctahedron", "icosidodecahedron", "rhombicosidodecahedron",
+     "truncated-icosidodecahedron"),
+)  # fmt: skip
 IN_THE_WINDOW = "cat"
 REFINED_AFTER = 120.0  # seconds, for a software renderer
 
 
+def sheet(rows: Sequence[Sequence[hqmodel.Scene]], tile: tuple[int, int]) -> Image.Image:
+    """Scenes side by side, in rows of as many."""
+    whole = Image.new("RGB", (tile[0] * len(rows[0]), tile[1] * len(rows)))
+    for j, row in enumerate(rows):
+        for i, scene in enumerate(row):
+            whole.paste(Image.fromarray(hqmodel.render(scene, size=tile)).convert("RGB"), (tile[0] * i, tile[1] * j))
+    return whole
+
+
 def starters() -> Image.Image:
     """A sheet of starter presets."""
-    sheet = Image.new("RGB", (TILE[0] * len(SHOWN[0]), TILE[1] * len(SHOWN)))
-    for j, row in enumerate(SHOWN):
-        for i, name in enumerate(row):
-            tile = Image.fromarray(hqmodel.render(hqmodel.load(name), size=TILE)).convert("RGB")
-            sheet.paste(tile, (TILE[0] * i, TILE[1] * j))
-    return sheet
+    return sheet([[hqmodel.load(name) for name in row] for row in SHOWN], TILE)
+
+
+def solids() -> Image.Image:
+    """The solids that `hqmodel new` makes."""
+    return sheet([[framed_scene(name, 200.0) for name in row] for row in SOLIDS], (200, 160))
 
 
 def window() -> Image.Image:
@@ -49,9 +67,9 @@ def window() -> Image.Image:
 
 
 def main() -> None:
-    """Write both pictures."""
+    """Write the pictures."""
     IMAGES.mkdir(exist_ok=True)
-    for name, make in (("starters", starters), ("window", window)):
+    for name, make in (("starters", starters), ("solids", solids), ("window", window)):
         make().save(IMAGES / f"{name}.jpg", quality=90)
 
 

@@ -147,62 +147,8 @@ void add_sloped(inout vec3 sum, float t, float slope)
 }
 #endif
 
-// The part of the ray x + t direction, low <= t <= high, on which a term matters.
-vec2 term_reach(Term term, vec3 x, vec3 direction, float low, float high)
-{
-    int end = int(term.first) + int(term.count);
-    for (int row = int(term.first); row < end; ++row) {
-        Strip strip = strip_row(row);
-        float rate = dot(strip.normal, direction);
-        float slow = max(abs(rate), 1e-20);
-        float middle = -strip_function(strip, x) / (rate < 0.0 ? -slow : slow);
-        float half_length = strip.reach / slow;
-        low = max(low, middle - half_length);
-        high = min(high, middle + half_length);
-    }
-    return vec2(low, high);
-}
-
-#ifndef LONE
-// The terms that are more than negligible somewhere along the ray, and where; all of them where there are too many to list.
-const int MOST_LISTED = 32;
-int listed[MOST_LISTED];
-vec2 listed_span[MOST_LISTED];
-int listed_count; // -1: all
-
-// Lists them; returns the part of the ray, from 0 to far, on which any that adds matters.
-vec2 list_terms(vec3 x, vec3 direction, float far)
-{
-    vec2 span = vec2(far, 0.0);
-    listed_count = 0;
-    vec3 slowness = 1.0 / (mix(vec3(-1.0), vec3(1.0), greaterThanEqual(direction, vec3(0.0))) * max(abs(direction), 1e-18));
-    for (int k = 0; k < term_count; ++k) {
-        Term term = term_row(k);
-        vec3 first = (term.low - x) * slowness;
-        vec3 second = (term.high - x) * slowness;
-        vec3 into = min(first, second);
-        vec3 out_of = max(first, second);
-        if (max(max(into.x, into.y), max(into.z, 0.0)) > min(min(out_of.x, out_of.y), min(out_of.z, far)))
-            continue;
-        vec2 reach = term_reach(term, x, direction, 0.0, far);
-        if (reach.x > reach.y)
-            continue;
-        if (term.adds > 0.0)
-            span = vec2(min(span.x, reach.x), max(span.y, reach.y));
-        if (listed_count >= 0 && listed_count < MOST_LISTED) {
-            listed[listed_count] = k;
-            listed_span[listed_count] = reach;
-            ++listed_count;
-        } else {
-            listed_count = -1;
-        }
-    }
-    return level_sign > 0.0 ? span : vec2(0.0, far);
-}
-#endif
-
-// L at x and at x + step, and a line that lies above it between them; t and t + dt are these points' places on the ray.
-Span look_ahead(vec3 x, vec3 step, float t, float dt)
+// L at x and at x + step, and a line that lies above it between them.
+Span look_ahead(vec3 x, vec3 step)
 {
     vec2 gain_0 = empty_sum(-1.0);
     vec2 gain_1 = gain_0;
@@ -212,16 +158,12 @@ Span look_ahead(vec3 x, vec3 step, float t, float dt)
     vec2 loss_1 = loss_0;
     vec3 below_0 = vec3(loss_0, 0.0);
     vec3 below_1 = below_0;
-#ifdef LONE
-    for (int k = 0; k < 1; ++k) {
-#else
-    int count = listed_count < 0 ? term_count : listed_count;
-    for (int i = 0; i < count; ++i) {
-        if (listed_count >= 0 && (listed_span[i].x > t + dt || listed_span[i].y < t))
+    vec3 least = min(x, x + step);
+    vec3 most = max(x, x + step);
+    for (int i = 0; i < active_count; ++i) {
+        Term term = term_row(active_term(i));
+        if (any(lessThan(most, term.low)) || any(greaterThan(least, term.high)))
             continue;
-        int k = listed_count < 0 ? i : listed[i];
-#endif
-        Term term = term_row(k);
         Span part = term_span(term, x, step);
 #ifdef CARVING
         if (term.adds < 0.0) {

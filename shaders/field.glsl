@@ -9,7 +9,7 @@
 // What a scene lacks need not be compiled: GROUPS is defined where a strip shares a group, HYPERBOLIC where a sigma is
 // negative, CARVING where a term carves.
 
-#include "layout.glsl"
+#include "cells.glsl"
 
 uniform float level_sign;  // -1, 0, 1
 uniform float level_log;   // ln |level|

@@ -44,8 +44,8 @@ Touch touch_at(vec3 x)
     vec3 slope = vec3(0.0);
     float top = NOTHING;
     float strongest = -1.0;
-    for (int k = 0; k < term_count; ++k) {
-        Term term = term_row(k);
+    for (int i = 0; i < active_count; ++i) {
+        Term term = term_row(active_term(i));
         if (!matters(term, x))
             continue;
         float weight = log_weight(term, x) * 1.44269504;
@@ -85,8 +85,8 @@ vec3 mixed_color(vec3 x)
 {
     vec3 total = vec3(0.0);
     vec2 sum = vec2(NOTHING, 0.0);
-    for (int k = 0; k < term_count; ++k) {
-        Term term = term_row(k);
+    for (int i = 0; i < active_count; ++i) {
+        Term term = term_row(active_term(i));
         if (term.adds < 0.0 || !matters(term, x))
             continue;
         float rise = term_value(term, x) - sum.x;
@@ -150,10 +150,10 @@ float gaussian_curvature(vec3 x)
     vec3 slope = vec3(0.0);
     Bend total = Bend(vec3(0.0), vec3(0.0), vec3(0.0));
     float top = NOTHING;
-    for (int k = 0; k < term_count; ++k)
-        top = max(top, term_value(term_row(k), x));
-    for (int k = 0; k < term_count; ++k) {
-        Term term = term_row(k);
+    for (int i = 0; i < active_count; ++i)
+        top = max(top, term_value(term_row(active_term(i)), x));
+    for (int i = 0; i < active_count; ++i) {
+        Term term = term_row(active_term(i));
         float weight = term.adds * term.hardness * exp(max(term_value(term, x) - top, -100.0));
         Bend bend = term_bend(term, x);
         slope -= weight * bend.slope;

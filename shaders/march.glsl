@@ -22,7 +22,7 @@ const float SHORTEST = 5e-4;  // lengths in the unit frame; light need not be ex
 #else
 const float SHORTEST = 4e-6;
 #endif
-const int NEWTON_STEPS = 64;
+const float OVERSTEP = 1e-5;  // past a cell's border, where the next one's list is asked for
 
 struct March {
     float t;     // no surface before this
@@ -31,16 +31,32 @@ struct March {
     float phase;
 };
 
-// The start of a search; to go on with one that was begun before, the terms must have been listed by this.
+#ifdef LONE
+// The part of the ray x + t direction, low <= t <= high, on which a term matters.
+vec2 term_reach(Term term, vec3 x, vec3 direction, float low, float high)
+{
+    int end = int(term.first) + int(term.count);
+    for (int row = int(term.first); row < end; ++row) {
+        Strip strip = strip_row(row);
+        float rate = dot(strip.normal, direction);
+        float slow = max(abs(rate), 1e-20);
+        float middle = -strip_function(strip, x) / (rate < 0.0 ? -slow : slow);
+        float half_length = strip.reach / slow;
+        low = max(low, middle - half_length);
+        high = min(high, middle + half_length);
+    }
+    return vec2(low, high);
+}
+#endif
+
 March begin_march(Ray ray)
 {
     March march = March(0.0, 0.0, ray.far, MISS);
     if (term_count == 0 || !(ray.far >= 0.0))
         return march;
+    vec2 span = vec2(0.0, ray.far);
 #ifdef LONE
-    vec2 span = term_reach(term_row(0), ray.origin, ray.direction, 0.0, ray.far);
-#else
-    vec2 span = list_terms(ray.origin, ray.direction, ray.far);
+    span = term_reach(term_row(0), ray.origin, ray.direction, 0.0, ray.far);
 #endif
     march.t = max(0.0, span.x - SHORTEST); // a step back, lest rounding puts the start into the body
     march.far = span.y;
@@ -85,25 +101,20 @@ vec3 convex_sum(vec3 x, vec3 direction)
 }
 
 // H^(1 / least exponent) of a lone convex shape is convex and nearly straight: Newton's steps never pass the surface.
-void march_convex(Ray ray, inout March march)
+void march_on(Ray ray, inout March march)
 {
-    for (int i = 0; i < NEWTON_STEPS; ++i) {
-        vec3 sum = convex_sum(ray.origin + march.t * ray.direction, ray.direction);
-        if (sum.x <= lone_constant) {
-            march.phase = march.t == 0.0 ? INSIDE : HIT;
-            return;
-        }
-        float rest = exp2(log2(lone_constant / sum.x) / least_exponent) - 1.0;
-        float step = max(least_exponent * sum.x / sum.y * rest, sum.z);
-        march.t += step;
-        if (sum.y >= 0.0 || march.t > march.far) {
-            march.phase = MISS;
-            return;
-        }
-        if (step < 2e-7 * (1.0 + march.t))
-            break;
+    vec3 sum = convex_sum(ray.origin + march.t * ray.direction, ray.direction);
+    if (sum.x <= lone_constant) {
+        march.phase = march.t == 0.0 ? INSIDE : HIT;
+        return;
     }
-    march.phase = HIT;
+    float rest = exp2(log2(lone_constant / sum.x) / least_exponent) - 1.0;
+    float step = max(least_exponent * sum.x / sum.y * rest, sum.z);
+    march.t += step;
+    if (sum.y >= 0.0 || march.t > march.far)
+        march.phase = MISS;
+    else if (step < 2e-7 * (1.0 + march.t))
+        march.phase = HIT;
 }
 #else
 // Squeezed into -1 .. 1, nearly straight near 0: what a false position can be guessed from when L is of any size.
@@ -112,23 +123,48 @@ float squeezed(float ratio)
     return ratio / (1.0 + abs(ratio));
 }
 
+#ifdef CELLS
+// Goes on to the next cell that any term matters in; returns where the ray leaves that again.
+float next_cells(Ray ray, inout March march)
+{
+    vec3 forward = step(0.0, ray.direction);
+    vec3 slowness = 1.0 / (mix(vec3(-1.0), vec3(1.0), forward) * max(abs(ray.direction), 1e-18));
+    float leave = march.t;
+    while (march.t < march.far) {
+        vec3 x = ray.origin + (march.t + OVERSTEP) * ray.direction;
+        ivec3 cell = cell_at(x);
+        vec3 way = (cells_low + (vec3(cell) + forward) * cell_size - x) * slowness;
+        leave = march.t + OVERSTEP + max(min(way.x, min(way.y, way.z)), 0.0);
+        enter_cell(cell);
+        if (active_count > 0)
+            break;
+        march.t = leave;
+    }
+    return leave;
+}
+#endif
+
 // One look at the segment ahead: it is left behind as far as the line above L is negative. Once L is seen positive at its end
 // the root is between the two and the next look goes a little past where a false position puts it.
 void march_on(Ray ray, inout March march)
 {
-    float dt = min(march.dt, march.far - march.t);
-    if (dt <= 0.0) {
+    float end = march.far;
+#ifdef CELLS
+    end = min(end, next_cells(ray, march));
+#endif
+    float dt = min(march.dt, end - march.t);
+    if (march.t >= march.far) {
         march.phase = march.phase == BRACKETED ? HIT : MISS;
         return;
     }
-    Span ahead = look_ahead(ray.origin + march.t * ray.direction, dt * ray.direction, march.t, dt);
+    Span ahead = look_ahead(ray.origin + march.t * ray.direction, dt * ray.direction);
     if (march.t == 0.0 && ahead.ends.x > 0.0) {
         march.phase = INSIDE;
         return;
     }
     if (max(ahead.line.x, ahead.line.y) < 0.0) {
         march.t += dt;
-        march.dt = 2.0 * dt;
+        march.dt = max(march.dt, 2.0 * dt);
         return;
     }
     bool shortest = dt <= SHORTEST;
@@ -160,11 +196,6 @@ void march_on(Ray ray, inout March march)
 // At most `steps` more looks.
 void march_some(Ray ray, int steps, inout March march)
 {
-#ifdef CONVEX
-    if (march.phase == SEARCHING)
-        march_convex(ray, march);
-#else
     for (int i = 0; i < steps && march.phase < HIT; ++i)
         march_on(ray, march);
-#endif
 }

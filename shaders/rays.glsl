@@ -2,6 +2,7 @@
 
 uniform vec3 region_low;
 uniform vec3 region_high;
+uniform vec4 cut;           // only where cut.xyz . x <= cut.w; 0, 0, 0, 1 for no cut
 
 uniform vec3 eye;
 uniform vec3 camera_right;
@@ -39,7 +40,7 @@ Sight tile_sight()
     return sight_through(floor(gl_FragCoord.xy) + tile_origin + jitter);
 }
 
-// The part of a ray in the region; `enter` is how far it begins from the origin.
+// The part of a ray in the region and behind the cut; `enter` is how far it begins from the origin.
 Ray enter_region(vec3 origin, vec3 direction, out float enter)
 {
     vec3 rate = 1.0 / (mix(vec3(-1.0), vec3(1.0), greaterThanEqual(direction, vec3(0.0))) * max(abs(direction), 1e-20));
@@ -48,5 +49,14 @@ Ray enter_region(vec3 origin, vec3 direction, out float enter)
     vec3 near = min(first, second);
     vec3 far = max(first, second);
     enter = max(max(near.x, near.y), max(near.z, 0.0));
-    return Ray(origin + enter * direction, direction, min(far.x, min(far.y, far.z)) - enter);
+    float leave = min(far.x, min(far.y, far.z));
+    float outside = dot(cut.xyz, origin) - cut.w;
+    float nearing = -dot(cut.xyz, direction);
+    if (nearing > 0.0)
+        enter = max(enter, outside / nearing);
+    else if (nearing < 0.0)
+        leave = min(leave, outside / nearing);
+    else if (outside > 0.0)
+        leave = -1.0;
+    return Ray(origin + enter * direction, direction, leave - enter);
 }

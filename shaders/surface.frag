@@ -3,18 +3,30 @@
 
 #include "jet.glsl"
 #include "march.glsl"
+#include "modes.glsl"
 
-const int STRIPS = 3;
+const float HATCH = 0.07; // from line to line, about, in the unit frame
 
 uniform sampler2D state;
 uniform int region_cut;
-uniform int mode;
+#ifdef CURVATURE
+const int CURVATURE_COLORS = 7;
+uniform vec3 curvature_colors[CURVATURE_COLORS]; // evenly placed on the scale
+uniform float curvature_rate;
+uniform float curvature_half;
+#endif
 uniform int ground;       // whether there is one
 uniform float ground_z;
 
 layout(location = 0) out vec4 surface_position; // xyz, w: distance from the eye
-layout(location = 1) out vec4 surface_normal;   // xyz, w: 0 nothing, 1 the body, 2 the ground
+layout(location = 1) out vec4 surface_normal;   // xyz, w: 0 nothing, 1 the body, 2 the ground, 3 the body's cut
 layout(location = 2) out vec4 surface_color;    // linear light, w: the strip's row, -1 for none
+
+// Whether a point lies in the cut.
+bool in_cut(vec3 x)
+{
+    return cut.xyz != vec3(0.0) && abs(dot(cut.xyz, x) - cut.w) < 1e-4;
+}
 
 // The face of the region's box that a point on it lies in.
 vec3 face_normal(vec3 x)
@@ -26,17 +38,19 @@ vec3 face_normal(vec3 x)
     return axis * sign(from);
 }
 
-// Blue where the surface is a saddle, grey where it is flat or bent one way, orange where it is a dome.
+#ifdef CURVATURE
+// From the legend's colours.
 vec3 curvature_color(float curvature)
 {
-    float size = asinh(4.0 * abs(curvature)) / asinh(400.0);
-    vec3 far = curvature < 0.0 ? vec3(0.03, 0.13, 0.62) : vec3(0.78, 0.16, 0.02);
-    return mix(vec3(0.62), far, smoothstep(0.0, 1.0, min(size, 1.0)));
+    float place = clamp(0.5 + curvature_half * asinh(curvature * curvature_rate), 0.0, 1.0) * float(CURVATURE_COLORS - 1);
+    int below = min(int(place), CURVATURE_COLORS - 2);
+    return mix(curvature_colors[below], curvature_colors[below + 1], place - float(below));
 }
+#endif
 
 vec3 body_color(vec3 x, float strip)
 {
-    if (mode == STRIPS)
+    if (mode == MODE_STRIPS)
         return strip < 0.0 ? vec3(0.5) : strip_row(int(strip)).tint;
 #ifdef CURVATURE
     // a hair aside: at h = 0 itself a second derivative is not had from powers of h
@@ -44,6 +58,16 @@ vec3 body_color(vec3 x, float strip)
 #else
     return mixed_color(x);
 #endif
+}
+
+// The body's own colour, darker, under thin slanting lines.
+vec3 hatched(vec3 color, vec3 x)
+{
+    vec3 across = abs(cut.z) < 0.9 ? vec3(-cut.y, cut.x, 0.0) : vec3(1.0, 0.0, 0.0);
+    across = normalize(across - dot(across, cut.xyz) * cut.xyz);
+    float place = dot(x, across + cross(cut.xyz, across)) / HATCH;
+    float line = smoothstep(0.34, 0.44, abs(fract(place) - 0.5));
+    return mix(0.55 * color + 0.10, 0.25 * color + 0.03, 0.75 * line);
 }
 
 void main()
@@ -68,14 +92,22 @@ void main()
     if (!hit)
         return;
     vec3 x = ray.origin + (distance - enter) * ray.direction;
+#ifdef CELLS
+    enter_cell(cell_at(x));
+#endif
     Touch touch = touch_at(x);
     vec3 normal = touch.normal;
-    bool capped = march.w == INSIDE && region_cut != 0 && enter > 0.0;
+    bool capped = march.w == INSIDE && enter > 0.0 && (region_cut != 0 || in_cut(x));
     if (capped)
         normal = face_normal(x);
     else if (march.w == INSIDE && enter == 0.0 || normal == vec3(0.0))
         normal = -sight.direction;
     surface_position = vec4(x, distance);
+    if (capped && in_cut(x)) {
+        surface_normal = vec4(cut.xyz, 3.0);
+        surface_color = vec4(hatched(mixed_color(x), x), -1.0);
+        return;
+    }
     surface_normal = vec4(normal, 1.0);
     surface_color = vec4(body_color(x, capped ? -1.0 : touch.strip), capped ? -1.0 : touch.strip);
 }

@@ -4,6 +4,7 @@
 
 #include "march.glsl"
 #include "light.glsl"
+#include "modes.glsl"
 
 uniform sampler2D state;
 uniform int fresh; // whether this is the first draw
@@ -41,7 +42,9 @@ Ray this_ray(ivec2 at)
     if (dot(direction, normal.xyz) <= 0.0)
         return Ray(position, direction, -1.0);
 #else
-    vec3 direction = sky_ray(normal.xyz, spread(pixel, SKY_SALT));
+    vec3 to_eye = -sight_through(floor(pixel) + jitter).direction;
+    bool mirrors = mode == MODE_METAL && normal.w == 1.0;
+    vec3 direction = mirrors ? mirrored_ray(normal.xyz, to_eye, spread(pixel, SKY_SALT)) : sky_ray(normal.xyz, spread(pixel, SKY_SALT));
 #endif
     return enter_region(position + LIFT * normal.xyz, direction, enter);
 #endif
@@ -51,11 +54,10 @@ void main()
 {
     ivec2 at = ivec2(gl_FragCoord.xy);
     Ray ray = this_ray(at);
-    March march = begin_march(ray);
-    if (fresh == 0) {
-        vec4 before = texelFetch(state, at, 0);
-        march = March(before.x, before.y, before.z, before.w);
-    }
+    vec4 before = texelFetch(state, at, 0);
+    March march = March(before.x, before.y, before.z, before.w);
+    if (fresh != 0)
+        march = begin_march(ray);
     march_some(ray, steps, march);
     march_state = vec4(march.t, march.dt, march.far, march.phase);
 }

@@ -17,9 +17,10 @@ settings.load_profile("hqmodel")
 
 @pytest.fixture(autouse=True)
 def _own_settings(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Each test has an empty folder for the program's settings."""
-    folder: Path = tmp_path_factory.mktemp("config")
-    monkeypatch.setenv("XDG_CONFIG_HOME", str(folder))
+    """Each test has empty folders for what the program keeps."""
+    folder: Path = tmp_path_factory.mktemp("home")
+    for name in ("config", "state", "cache"):
+        monkeypatch.setenv(f"XDG_{name.upper()}_HOME", str(folder / name))
     yield
 
 
@@ -29,7 +30,7 @@ def display() -> Iterator[str]:
     if shutil.which("Xvfb") is None:
         pytest.fail("the window tests need a display: install Xvfb (on Debian and Ubuntu: xvfb)")
     read, write = os.pipe()
-    command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x800x24", "-nolisten", "tcp"]
+    command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x800x24", "-nolisten", "tcp", "-noreset"]
     with subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL) as server:
         os.close(write)
         with os.fdopen(read) as stream:

@@ -280,7 +280,7 @@ def test_figure_15_is_a_head_of_five_strips() -> None:
     np.testing.assert_array_equal(normals[:3], np.eye(3))
     assert len(normals) == 5
     assert not np.any(normals[3:, 0])  # left and right are alike
-    assert [get(stage, "view.azimuth") for stage in stages(figure(15))] == [0, 30, 90]
+    assert [get(stage, "view.camera.azimuth") for stage in stages(figure(15))] == [0, 30, 90]
 
 
 def test_figure_15_has_a_chin_a_throat_and_a_nape() -> None:

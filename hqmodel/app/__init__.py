@@ -17,14 +17,14 @@ def run(path: Path | None = None, change: Callable[[Scene], Scene] | None = None
 
     Raises NoDisplay, one sentence, where no window can be opened. A preset that can't be read is told of in the window.
     """
-    from hqmodel.files import Settings
+    from hqmodel.files import Settings, lost
 
     from .asks import Open
     from .display import require
-    from .intents import Edit
+    from .intents import Do, Edit
     from .session import Session
 
-    require()
+    scale = require()
     from .window import Window
 
     session = Session(Settings.read())
@@ -32,4 +32,7 @@ def run(path: Path | None = None, change: Callable[[Scene], Scene] | None = None
         session.apply([Open(path)])
     if change is not None:
         session.apply([Edit("Command line", change)])
-    Window(session).run()
+    if path is None and not session.settings.preferences.get("toured"):
+        session.apply([Do("tour")])
+    session.offer(lost())
+    Window(session, scale=scale).run()

@@ -7,20 +7,28 @@ from dataclasses import dataclass, replace
 from functools import partial, reduce
 from typing import TYPE_CHECKING
 
-from hqmodel import edit
-from hqmodel.edit.primitives import FLAT
-from hqmodel.field import region
-from hqmodel.model import VIEWS, Strip
+from hqmodel import edit, files
+from hqmodel.edit.dimension import FLAT
+from hqmodel.field import Plane, region
+from hqmodel.model import VIEWS, Scene, Strip
 
-from .asks import About, ChooseFile, ExportAs, ExportSettings, New, Problem, Quit, Shortcuts
-from .intents import Edit, Select
+from .asks import About, ChooseFile, ExportAs, ExportSettings, New, Palette, Problem, Quit, Shortcuts, Tour
+from .catalogue import catalogue
+from .intents import Choose, Edit, Equip, Select
+from .tools.arranging import AXES
+from .tools.kit import TOOLS
+from .tools.reach import MODAL
 from .view import MODES
 
 if TYPE_CHECKING:
     from .session import Session
 
 THEMES = ("dark", "light")
-PANELS = ("Outliner", "Presets", "Properties", "Scene")
+# Of everything in the window, in hundredths of its usual size.
+SIZES = (80, 90, 100, 110, 125, 150, 175, 200)
+PANELS = ("Outliner", "Presets", "Properties", "Scene", "Timeline")
+# Not shown before they are asked for.
+HIDDEN = ("Timeline",)
 
 
 def _always(_: Session) -> bool:
@@ -72,6 +80,16 @@ def _open(session: Session) -> None:
 def _save_as(session: Session) -> None:
     session.release()
     session.save(None)
+
+
+def _has_versions(session: Session) -> bool:
+    path = session.document.path
+    return path is not None and files.backup_folder(path).is_dir()
+
+
+def _versions(session: Session) -> None:
+    if session.document.path is not None:
+        session.dialogs.append(ChooseFile("open", files.backup_folder(session.document.path)))
 
 
 def _exporting(session: Session) -> bool:
@@ -156,6 +174,81 @@ def _move(by: int, session: Session) -> None:
         session.apply([Edit("Reorder", change), Select(shape, strip + by)])
 
 
+# The clay
+
+
+def _use(tool: str, session: Session) -> None:
+    session.apply([Equip(replace(session.kit, tool=tool))])
+
+
+def _in_hand(tool: str, session: Session) -> bool:
+    return session.kit.tool == tool
+
+
+def _begin(gesture: str, session: Session) -> None:
+    """The viewport knows where the pointer is: it takes hold in its next frame."""
+    session.wanted_gesture = gesture
+
+
+def _exponents(label: str, factor: float, session: Session) -> None:
+    """The selected strip's, or those of all selected shapes."""
+    selection = session.selection
+    chosen = None if selection.strip is None else [selection.strip]
+    shapes = selection.shapes if chosen is None else selection.shapes[-1:]
+
+    def change(scene: Scene) -> Scene:
+        return reduce(lambda scene, shape: edit.scale_exponents(scene, shape, factor, chosen), shapes, scene)
+
+    session.apply([Edit(label, change)])
+
+
+def _carve(session: Session) -> None:
+    shapes = session.selection.shapes
+    carving = session.scene.shapes[shapes[-1]].coefficient > 0
+    session.apply([Edit("Carve" if carving else "Add", partial(edit.carve, indices=shapes, carving=carving))])
+
+
+def _carving(session: Session) -> bool:
+    active = session.selection.active
+    return active is not None and session.scene.shapes[active].coefficient < 0
+
+
+def _solo(session: Session) -> None:
+    """Only the selected shapes are seen; once more, all are."""
+    chosen = session.selection.shapes
+    alone = all(shape.visible == (index in chosen) for index, shape in enumerate(session.scene.shapes))
+
+    def change(scene: Scene) -> Scene:
+        for index in range(len(scene.shapes)):
+            scene = edit.put(scene, ("shapes", index, "visible"), alone or index in chosen)
+        return scene
+
+    session.apply([Edit("Solo" if not alone else "Show all", change)])
+
+
+def _radial(count: int, session: Session) -> None:
+    active = session.selection.active
+    if active is not None:
+        session.apply([Edit(f"{count} around", partial(edit.repeat_around, index=active, axis=(0, 0, 1), count=count))])
+
+
+def _select_all(session: Session) -> None:
+    session.apply([Choose(tuple(range(len(session.scene.shapes))))])
+
+
+def _deselect(session: Session) -> None:
+    session.apply([Select(None)])
+
+
+def _add_prism(sides: int, session: Session) -> None:
+    shape = edit.prism(sides)
+    session.apply([Edit("Add prism", partial(edit.add_shape, shape=shape)), Select(len(session.scene.shapes))])
+
+
+def _solid(session: Session) -> bool:
+    return session.scene.dimension == 3
+
+
 # View
 
 
@@ -174,6 +267,21 @@ def _look(name: str, session: Session) -> None:
 def _switch_projection(session: Session) -> None:
     camera = session.view.camera
     session.look(replace(camera, orthographic=not camera.orthographic))
+
+
+def _section(axis: str, session: Session) -> None:
+    """The body cut in its middle, across this axis; once more, whole again."""
+    normal, cut = AXES[axis], session.view.cut
+    middle = float(session.region.centre @ normal)
+    session.view = replace(session.view, cut=None if cut and cut.normal == normal else Plane(normal, middle))
+
+
+def _sectioned(axis: str, session: Session) -> bool:
+    return session.view.cut is not None and session.view.cut.normal == AXES[axis]
+
+
+def _switch_ghosts(session: Session) -> None:
+    session.view = replace(session.view, ghosts=not session.view.ghosts)
 
 
 def _refining(session: Session) -> bool:
@@ -205,7 +313,7 @@ def _toggle_panel(name: str, session: Session) -> None:
 
 
 def _reset_layout(session: Session) -> None:
-    session.hidden_panels.clear()
+    session.hidden_panels = set(HIDDEN)
     session.layout_wanted = True
 
 
@@ -217,13 +325,34 @@ def _set_theme(name: str, session: Session) -> None:
     session.keep(session.settings.preferring(theme=name))
 
 
+# Help
+
+
+def _palette(session: Session) -> None:
+    session.release()
+    session.dialogs.append(Palette(catalogue(session, ACTIONS, MENUS)))
+
+
+def _in_size(percent: int, session: Session) -> bool:
+    return session.percent == percent
+
+
+def _set_size(percent: int, session: Session) -> None:
+    session.keep(session.settings.preferring(percent=percent))
+
+
 _KEYS = {"front": "Num 1", "right": "Num 3", "top": "Num 7", "back": "Ctrl+Num 1", "left": "Ctrl+Num 3", "bottom": "Ctrl+Num 7"}
+
+_HELD = {"move": ("Move", "G"), "turn": ("Turn", "R"), "scale": ("Scale", "S"), "harden": ("Hardness", "H")}
+PRISMS = (3, 5, 8)
+AROUND = (3, 4, 5, 6, 8, 12)
 
 ACTIONS: dict[str, Action] = {
     "new": Action("New", lambda s: s.leave(New()), ("Ctrl+N",)),
     "open": Action("Open...", _open, ("Ctrl+O",)),
     "save": Action("Save", _save, ("Ctrl+S",)),
     "save as": Action("Save As...", _save_as, ("Ctrl+Shift+S",)),
+    "versions": Action("Earlier Versions...", _versions, (), _has_versions),
     "export": Action("Export...", _export, ("Ctrl+E",), lambda s: s.export is None),
     "stop export": Action("Stop the Export", _stop_export, (), _exporting),
     "quit": Action("Quit", lambda s: s.leave(Quit()), ("Ctrl+Q",)),
@@ -236,7 +365,21 @@ ACTIONS: dict[str, Action] = {
     "move up": Action("Move Up", partial(_move, -1), ("Ctrl+Up",), partial(_movable, -1)),
     "move down": Action("Move Down", partial(_move, 1), ("Ctrl+Down",), partial(_movable, 1)),
     **{f"add {kind}": Action(kind.capitalize(), partial(_add_shape, kind)) for kind in edit.PRIMITIVES},
+    **{f"add prism {n}": Action(f"Prism of {n}", partial(_add_prism, n), (), _solid) for n in PRISMS},
     "add strip": Action("Strip", _add_strip, (), _selected),
+    **{
+        f"tool {name}": Action(tool.label, partial(_use, name), (tool.key,), _always, partial(_in_hand, name))
+        for name, tool in TOOLS.items()
+    },
+    **{f"hold {name}": Action(_HELD[name][0], partial(_begin, name), (_HELD[name][1],), _selected) for name in MODAL},
+    "rounder": Action("Rounder", partial(_exponents, "Rounder", 0.8), ("[",), _selected),
+    "sharper": Action("Sharper", partial(_exponents, "Sharper", 1.25), ("]",), _selected),
+    "pinch": Action("Pinch", partial(_exponents, "Pinch", 0.4), (), _selected),
+    "carve": Action("Carve with It", _carve, ("Ctrl+Minus",), _selected, _carving),
+    "solo": Action("Solo", _solo, ("Num /",), _selected),
+    **{f"around {n}": Action(f"{n} Around z", partial(_radial, n), (), _selected) for n in AROUND},
+    "select all": Action("Select All", _select_all, ("A",)),
+    "select none": Action("Select None", _deselect, ("Alt+A",)),
     **{
         f"mode {mode}": Action(mode.capitalize(), partial(_set_mode, mode), (), _always, partial(_in_mode, mode))
         for mode in MODES
@@ -245,6 +388,11 @@ ACTIONS: dict[str, Action] = {
         f"view {name}": Action(name.capitalize(), partial(_look, name), (_KEYS[name],) if name in _KEYS else ()) for name in VIEWS
     },
     "orthographic": Action("Orthographic", _switch_projection, ("Num 5",), _always, lambda s: s.view.camera.orthographic),
+    **{
+        f"section {axis}": Action(f"Across {axis}", partial(_section, axis), (), _always, partial(_sectioned, axis))
+        for axis in AXES
+    },
+    "ghosts": Action("Carving Shapes as Ghosts", _switch_ghosts, (), _always, lambda s: s.view.ghosts),
     "refine": Action("Refine at Rest", _switch_refining, (), _always, _refining),
     "frame all": Action("Frame All", _frame_all, ("Home",)),
     "frame selected": Action("Frame Selected", _frame_selected, ("F", "Num .")),
@@ -254,7 +402,13 @@ ACTIONS: dict[str, Action] = {
         f"theme {name}": Action(name.capitalize(), partial(_set_theme, name), (), _always, partial(_in_theme, name))
         for name in THEMES
     },
-    "shortcuts": Action("Shortcuts", lambda s: s.dialogs.append(Shortcuts()), ("F1",)),
+    **{
+        f"size {percent}": Action(f"{percent} %", partial(_set_size, percent), (), _always, partial(_in_size, percent))
+        for percent in SIZES
+    },
+    "palette": Action("Find a Command...", _palette, ("Ctrl+P",)),
+    "shortcuts": Action("Shortcuts", lambda s: s.dialogs.append(Shortcuts(catalogue(s, ACTIONS, MENUS))), ("F1",)),
+    "tour": Action("Tour", lambda s: s.dialogs.append(Tour())),
     "about": Action("About", lambda s: s.dialogs.append(About())),
 }
 
@@ -263,11 +417,26 @@ RECENT = "recent"
 
 # The menu bar: names of actions, None for a line between, a pair for a menu within; RECENT stands for the recent files.
 MENUS: dict[str, tuple[Entry, ...]] = {
-    "File": ("new", "open", RECENT, None, "save", "save as", None, "export", "stop export", None, "quit"),
-    "Edit": ("undo", "redo", None, "duplicate", "delete", "move up", "move down"),
-    "Add": (*(f"add {kind}" for kind in edit.PRIMITIVES), None, "add strip"),
+    "File": ("new", "open", RECENT, None, "save", "save as", "versions", None, "export", "stop export", None, "quit"),
+    "Edit": ("undo", "redo", None, "select all", "select none", None, "duplicate", "delete", "move up", "move down"),
+    "Add": (*(f"add {kind}" for kind in edit.PRIMITIVES), *(f"add prism {n}" for n in PRISMS), None, "add strip"),
+    "Shape": (
+        *(f"hold {name}" for name in MODAL),
+        None,
+        "rounder",
+        "sharper",
+        "pinch",
+        None,
+        "carve",
+        "solo",
+        ("Copies Around z", tuple(f"around {n}" for n in AROUND)),
+    ),
+    "Tools": tuple(f"tool {name}" for name in TOOLS),
     "View": (
         *(f"mode {mode}" for mode in MODES),
+        None,
+        ("Section", tuple(f"section {axis}" for axis in AXES)),
+        "ghosts",
         "refine",
         None,
         "frame all",
@@ -277,6 +446,7 @@ MENUS: dict[str, tuple[Entry, ...]] = {
         None,
         ("Panels", (*(f"panel {name}" for name in PANELS), "reset layout")),
         ("Theme", tuple(f"theme {name}" for name in THEMES)),
+        ("Size", tuple(f"size {percent}" for percent in SIZES)),
     ),
-    "Help": ("shortcuts", "about"),
+    "Help": ("palette", "shortcuts", "tour", None, "about"),
 }

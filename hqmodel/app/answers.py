@@ -6,7 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .asks import ChooseFile, Dialog, ExportAs, ExportSettings, Open, Unsaved
+from . import actions
+from .asks import ChooseFile, Dialog, ExportAs, ExportSettings, Open, Overwrite, Palette, Recover, Recovered, Tour, Unsaved
 
 if TYPE_CHECKING:
     from .session import Session
@@ -19,12 +20,26 @@ def take(session: Session, dialog: Dialog, value: object) -> None:
             session.save(session.document.path, then=departure)
         case Unsaved(departure=departure), "discard":
             session.depart(departure)
+        case Overwrite(path=path, departure=departure), "overwrite":
+            session.write(path, departure)
+        case Overwrite(departure=departure), "elsewhere":
+            session.save(None, departure)
+        case Recover(lost=lost), Recovered(lost=chosen, wanted=wanted):
+            rest = tuple(one for one in lost if one is not chosen)
+            session.recover(chosen, rest) if wanted else session.forget(chosen, rest)
+        case Recover(lost=lost), None:
+            for one in lost:
+                one.release()
         case ChooseFile(purpose="open"), Path() as path:
             session.leave(Open(path))
         case ChooseFile(purpose="save"), Path() | None as path:
             session.save_chosen(path)
         case ChooseFile(purpose="export"), Path() as path:
             _export_to(session, path)
+        case Tour(), _:
+            session.keep(session.settings.preferring(toured=True))
+        case Palette(), str() as name:
+            actions.perform(session, name)
         case ExportAs(), ExportSettings() as settings:
             session.start_export(settings)
 

@@ -8,12 +8,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
+
+from hqmodel.files import Lost
+
+if TYPE_CHECKING:
+    from .catalogue import Command
 
 Purpose = Literal["open", "save", "export"]
 Unit = Literal["mm", "cm", "m", "in"]
 Up = Literal["y", "z"]
 Choice = Literal["save", "discard"]
+Overtaken = Literal["overwrite", "elsewhere"]
 
 
 @dataclass(frozen=True)
@@ -42,6 +48,29 @@ class Unsaved:
 
     name: str
     departure: Departure
+
+
+@dataclass(frozen=True)
+class Overwrite:
+    """The document's file holds what another program wrote there in the meantime. Answered by an Overtaken."""
+
+    path: Path
+    departure: Departure | None = None
+
+
+@dataclass(frozen=True)
+class Recover:
+    """What windows left that did not end as they should. Answered by one of them and what to do with it."""
+
+    lost: tuple[Lost, ...]
+
+
+@dataclass(frozen=True)
+class Recovered:
+    """What to do with it: go on with it, or throw it away."""
+
+    lost: Lost
+    wanted: bool
 
 
 @dataclass(frozen=True)
@@ -103,8 +132,26 @@ class Exported:
 
 
 @dataclass(frozen=True)
+class Palette:
+    """Every action, to be found by a few letters. Answered by the name of the one to do."""
+
+    commands: tuple[Command, ...]
+    query: str = ""
+    chosen: int = 0
+
+
+@dataclass(frozen=True)
 class Shortcuts:
-    """The list of all shortcuts."""
+    """The list of all shortcuts, and of what the mouse does."""
+
+    commands: tuple[Command, ...]
+
+
+@dataclass(frozen=True)
+class Tour:
+    """A few words about each part of the window, for who has never seen it."""
+
+    step: int = 0
 
 
 @dataclass(frozen=True)
@@ -112,4 +159,4 @@ class About:
     """What this program is."""
 
 
-Dialog = Unsaved | ChooseFile | Problem | ExportAs | Exported | Shortcuts | About
+Dialog = Unsaved | Overwrite | Recover | ChooseFile | Problem | ExportAs | Exported | Palette | Shortcuts | Tour | About

@@ -5,13 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from hqmodel.field import Region
-from hqmodel.gpu import Preview, Seen
-from hqmodel.model import Camera, Scene
+from hqmodel.gpu import Legend, Preview, Seen
+from hqmodel.model import Scene
 
 from .view import View
 
 if TYPE_CHECKING:
     import moderngl
+
+# A shape and a strip of it.
+Lit = tuple[int, int]
 
 
 class Canvas:
@@ -21,6 +24,7 @@ class Canvas:
         self._preview = Preview(ctx)
         self._scene: Scene | None = None
         self._drawn: tuple[View, tuple[int, int]] | None = None
+        self._lit: Lit | None = None
         self.unfinished = True
 
     @property
@@ -28,18 +32,28 @@ class Canvas:
         """Where the body is that the picture shows."""
         return self._preview.region
 
-    def draw(self, scene: Scene, view: View, size: tuple[int, int], budget: float) -> int:
-        """Bring the picture up to date, by a draft at first and finer in `budget` seconds, if any; its texture's name."""
+    @property
+    def legend(self) -> Legend:
+        """What the colours of the curvature mode mean."""
+        return self._preview.legend()
+
+    def draw(self, scene: Scene, view: View, size: tuple[int, int], budget: float, lit: Lit | None = None) -> int:
+        """Bring the picture up to date, by a draft at first and finer in `budget` seconds, if any; its texture's name.
+
+        What the strip `lit` shapes is shown in a warmer tint.
+        """
         if scene is not self._scene:
             self._preview.show(scene)
             self._scene, self._drawn = scene, None
         if self._drawn != (view, size):
-            self._preview.draw(view.camera, size, view.mode, quick=True)
+            self._preview.draw(view.camera, size, view.mode, True, 0.0, view.cut, lit, view.ghosts)
             self._drawn, self.unfinished = (view, size), True
-        elif budget and self.unfinished:
-            self.unfinished = self._preview.draw(view.camera, size, view.mode, budget=budget)
+        elif (budget and self.unfinished) or lit != self._lit:
+            quick = not budget
+            self.unfinished = self._preview.draw(view.camera, size, view.mode, quick, budget, view.cut, lit, view.ghosts)
+        self._lit = lit
         return int(self._preview.texture.glo)
 
-    def pick(self, camera: Camera, size: tuple[int, int], pixel: tuple[int, int]) -> Seen | None:
+    def pick(self, view: View, size: tuple[int, int], pixel: tuple[int, int]) -> Seen | None:
         """What the picture shows at a pixel, counted from the top left."""
-        return self._preview.pick(camera, size, pixel)
+        return self._preview.pick(view.camera, size, pixel, cut=view.cut)

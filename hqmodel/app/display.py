@@ -12,8 +12,11 @@ class NoDisplay(Exception):
     """The machine lacks what a window needs; the message says what, and what works without."""
 
 
-def require() -> None:
-    """Raises NoDisplay, with one sentence, where no window with OpenGL 3.3 can be opened."""
+def require() -> float:
+    """The screen's scale, as far as hello_imgui does not find it by itself.
+
+    Raises NoDisplay, with one sentence, where no window with OpenGL 3.3 can be opened.
+    """
     import imgui_bundle  # noqa: F401  it comes first: it tells glfw which library the two share
 
     # isort: split
@@ -24,13 +27,16 @@ def require() -> None:
         if not glfw.init():
             raise NoDisplay(f"no display to open a window on ({_where()}); {HEADLESS}")
         try:
-            _probe()
+            return _probe()
         finally:
             glfw.terminate()
 
 
-def _probe() -> None:
-    """Opens a window that is never shown, with the OpenGL that the modeller asks for."""
+def _probe() -> float:
+    """Opens a window that is never shown, with the OpenGL that the modeller asks for; the scale of letters on it.
+
+    X11 counts in pixels and leaves the scale to programs; elsewhere the system or hello_imgui sees to it.
+    """
     import glfw
 
     for hint, value in ((glfw.VISIBLE, False), (glfw.CONTEXT_VERSION_MAJOR, 3), (glfw.CONTEXT_VERSION_MINOR, 3)):
@@ -44,7 +50,10 @@ def _probe() -> None:
             "the display has no OpenGL 3.3: install the graphics driver, "
             f"or Mesa (libgl1-mesa-dri) for the software one; {HEADLESS}"
         )
+    scale = glfw.get_window_content_scale(window)[0]
+    counted = glfw.get_framebuffer_size(window)[0] == glfw.get_window_size(window)[0]
     glfw.destroy_window(window)
+    return max(scale, 1.0) if counted and sys.platform.startswith("linux") else 1.0
 
 
 def _where() -> str:

@@ -11,7 +11,7 @@ from imgui_bundle import imgui
 from hqmodel import edit
 from hqmodel.model import FIELDS, Number, Scene, pattern, place
 
-from .intents import Grab, Intent, Location, Put, Reset
+from .intents import Animate, Grab, Intent, Location, Put, Reset
 
 # The share of a panel's width that labels take.
 LABELS = 0.36
@@ -24,6 +24,7 @@ class Memory:
 
     spans: dict[str, tuple[float, float]] = field(default_factory=dict)
     angles: dict[str, tuple[Sequence[float], Sequence[float]]] = field(default_factory=dict)
+    turns: dict[str, tuple[Scene, float]] = field(default_factory=dict)
 
 
 class Form:
@@ -172,6 +173,8 @@ class Form:
         if imgui.begin_popup_context_item(f"reset {name}"):
             if imgui.menu_item_simple("Reset"):
                 self.intents.append(Reset(location, label))
+            if pattern(location) in FIELDS and imgui.menu_item_simple("Animate..."):
+                self.intents.append(Animate(location, label))
             if imgui.menu_item_simple("Copy Path"):
                 imgui.set_clipboard_text(name)
             imgui.end_popup()

@@ -4,14 +4,8 @@ from __future__ import annotations
 
 import traceback
 from collections.abc import Callable, Iterable
-from pathlib import Path
-from time import strftime
 
 from imgui_bundle import imgui
-from platformdirs import user_state_path
-
-from hqmodel import files
-from hqmodel.model import Scene
 
 from .intents import Intent
 from .session import Session
@@ -44,7 +38,7 @@ class Guard:
     def _report(self, name: str, error: Exception) -> None:
         self._session.history.cancel()
         traceback.print_exception(error)
-        kept = rescued(self._session.scene) if self._session.history.dirty else None
+        kept = self._session.recovery.keep(self._session) if self._session.history.dirty else None
         lines = [f"{name}: {type(error).__name__}: {error}", "Your work is still here, and can be saved as always."]
         if kept is not None:
             lines.append(f"To be sure, a copy was saved as {kept}")
@@ -57,16 +51,3 @@ def _recover(before: imgui.internal.ErrorRecoveryState) -> None:
     io.config_error_recovery_enable_assert = False
     imgui.internal.error_recovery_try_to_recover_state(before)
     io.config_error_recovery_enable_assert = True
-
-
-def rescued(scene: Scene) -> Path | None:
-    """Where a copy of the scene was put, in the program's own folder; None where even that failed."""
-    folder = user_state_path("hqmodel", appauthor=False) / "rescued"
-    path = folder / f"{strftime('%Y-%m-%d %H-%M-%S')}.json"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        files.save(scene, path)
-    except (OSError, files.PresetError) as error:
-        traceback.print_exception(error)
-        return None
-    return path

@@ -5,9 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from hqmodel.edit.animation import Animation
 from hqmodel.model import Camera, Scene
 
 from .asks import Departure, Dialog
+from .tools.gesture import Gesture, Held
+from .tools.kit import Kit
+from .view import View
 
 Location = tuple[str | int, ...]
 
@@ -32,6 +36,47 @@ class Put:
 @dataclass(frozen=True)
 class Release:
     """Whatever was grabbed has been let go."""
+
+
+@dataclass(frozen=True)
+class Take:
+    """The hand takes hold of something in the viewport: all until it lets go is one undo step."""
+
+    gesture: Gesture
+
+
+@dataclass(frozen=True)
+class Pull:
+    """What is held has come so far."""
+
+    held: Held
+
+
+@dataclass(frozen=True)
+class Show:
+    """The scene as the drag under way has it now."""
+
+    scene: Scene
+
+
+@dataclass(frozen=True)
+class Drop:
+    """Whatever is held is let go of, and everything is as it was before."""
+
+
+@dataclass(frozen=True)
+class Equip:
+    """Another tool in hand, or the tool set otherwise."""
+
+    kit: Kit
+
+
+@dataclass(frozen=True)
+class Choose:
+    """These shapes selected, and no others unless `add`."""
+
+    shapes: tuple[int, ...]
+    add: bool = False
 
 
 @dataclass(frozen=True)
@@ -67,10 +112,54 @@ class Look:
 
 
 @dataclass(frozen=True)
+class See:
+    """Shown otherwise, or from elsewhere."""
+
+    view: View
+
+
+@dataclass(frozen=True)
 class Resize:
     """The viewport has so many pixels now."""
 
     size: tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Play:
+    """An animation shown, from a moment on (see `Player`), or that moment alone; nothing of the scene changes."""
+
+    animation: Animation
+    share: float | None = None
+    running: bool = True
+
+
+@dataclass(frozen=True)
+class Animate:
+    """This number set in motion, in the animation that is picked or in a new one."""
+
+    path: Location
+    label: str
+
+
+@dataclass(frozen=True)
+class Pick:
+    """The animation that is worked on."""
+
+    animation: int | None
+
+
+@dataclass(frozen=True)
+class Stop:
+    """No animation is shown any more."""
+
+
+@dataclass(frozen=True)
+class Prefer:
+    """A preference, remembered from now on."""
+
+    name: str
+    value: object
 
 
 @dataclass(frozen=True)
@@ -101,4 +190,5 @@ class Adjust:
     dialog: Dialog
 
 
-Intent = Grab | Put | Release | Reset | Edit | Select | Look | Resize | Do | Ask | Answer | Adjust | Departure
+Handling = Take | Pull | Show | Drop | Equip | Choose | Play | Stop | Animate | Pick | Prefer
+Intent = Grab | Put | Release | Reset | Edit | Select | Look | See | Resize | Do | Ask | Answer | Adjust | Departure | Handling

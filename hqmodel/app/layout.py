@@ -7,6 +7,7 @@ from functools import partial
 
 from imgui_bundle import hello_imgui, imgui
 
+from .actions import HIDDEN
 from .session import Session
 
 # Panel: the space it is docked in. Each space is split off another one: side, share.
@@ -16,13 +17,16 @@ _PLACES = {
     "Presets": "LeftLowerSpace",
     "Properties": "RightSpace",
     "Scene": "RightSpace",
+    "Timeline": "LowerSpace",
 }
 _SPLITS = (
     ("MainDockSpace", "LeftSpace", imgui.Dir.left, 0.2),
     ("MainDockSpace", "RightSpace", imgui.Dir.right, 0.34),
     ("LeftSpace", "LeftLowerSpace", imgui.Dir.down, 0.55),
+    ("MainDockSpace", "LowerSpace", imgui.Dir.down, 0.3),
 )
 _PLAIN = imgui.internal.DockNodeFlagsPrivate_.no_window_menu_button | imgui.internal.DockNodeFlagsPrivate_.no_close_button
+_FIXED = imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse | imgui.WindowFlags_.no_move
 _BARE = imgui.internal.DockNodeFlagsPrivate_.no_tab_bar
 
 
@@ -36,7 +40,7 @@ def docking(panels: Mapping[str, Callable[[], None]]) -> hello_imgui.DockingPara
 
 def _window(name: str, draw: Callable[[], None]) -> hello_imgui.DockableWindow:
     if name != "Viewport":
-        return hello_imgui.DockableWindow(name, _PLACES[name], draw)
+        return hello_imgui.DockableWindow(name, _PLACES[name], draw, is_visible_=name not in HIDDEN)
     window = hello_imgui.DockableWindow(name, _PLACES[name], partial(_bare, name, draw), can_be_closed_=False)
     window.call_begin_end = False
     return window
@@ -48,7 +52,7 @@ def _bare(name: str, draw: Callable[[], None]) -> None:
     kind.dock_node_flags_override_set = _BARE
     imgui.set_next_window_class(kind)
     imgui.push_style_var(imgui.StyleVar_.window_padding, (0.0, 0.0))
-    shown, _ = imgui.begin(name, None, imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse)
+    shown, _ = imgui.begin(name, None, _FIXED)
     imgui.pop_style_var()
     if shown:
         draw()

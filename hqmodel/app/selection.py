@@ -27,6 +27,10 @@ class Selection:
         others = tuple(index for index in self.shapes if index != shape)
         return Selection(others) if shape == self.active else Selection((*others, shape), strip)
 
+    def chosen(self, shapes: tuple[int, ...], add: bool = False) -> Selection:
+        """These shapes; with `add` besides those that were selected."""
+        return Selection((*(index for index in self.shapes if add and index not in shapes), *shapes))
+
     def within(self, scene: Scene) -> Selection:
         """What is left of it in a scene that may have fewer shapes or strips."""
         shapes = tuple(index for index in self.shapes if index < len(scene.shapes))

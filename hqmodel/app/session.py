@@ -7,17 +7,50 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from time import monotonic
 
 from hqmodel import edit, files
+from hqmodel.edit.sweeping import animate
 from hqmodel.field import Region, region
 from hqmodel.model import Camera, Scene
 
 from . import actions, answers
-from .asks import ChooseFile, Departure, Dialog, ExportSettings, New, Open, Problem, Quit, Unsaved
+from .asks import ChooseFile, Departure, Dialog, ExportSettings, New, Open, Overwrite, Problem, Quit, Recover, Unsaved
 from .document import Document
 from .export import ExportJob
-from .intents import Adjust, Answer, Ask, Do, Edit, Grab, Intent, Location, Look, Put, Release, Reset, Resize, Select
+from .intents import (
+    Adjust,
+    Animate,
+    Answer,
+    Ask,
+    Choose,
+    Do,
+    Drop,
+    Edit,
+    Equip,
+    Grab,
+    Intent,
+    Location,
+    Look,
+    Pick,
+    Play,
+    Prefer,
+    Pull,
+    Put,
+    Release,
+    Reset,
+    Resize,
+    See,
+    Select,
+    Show,
+    Stop,
+    Take,
+)
+from .player import Player
+from .recovery import Recovery, recovered, said
 from .selection import Selection
+from .tools.gesture import Held
+from .tools.kit import Kit
 from .view import View, restored
 
 
@@ -35,13 +68,19 @@ class Session:
 
     def __init__(self, settings: files.Settings, wake: Callable[[], None] = lambda: None) -> None:
         self.settings = settings
+        self.recovery = Recovery()
+        self.player = Player()
         self.wake = wake
         self.size = (800, 600)
         self.dialogs: list[Dialog] = []
         self.export: ExportJob | None = None
-        self.hidden_panels: set[str] = set()
+        self.hidden_panels = set(actions.HIDDEN)
+        self.animation: int | None = None
         self.layout_wanted = False
         self.finished = False
+        self.kit = Kit()
+        self.held: Held | None = None
+        self.wanted_gesture = ""
         self.message = ""
         self.failed = False
         self._after_saving: Departure | None = None
@@ -54,6 +93,21 @@ class Session:
         return self.document.scene
 
     @property
+    def shown(self) -> Scene:
+        """The scene as it is to be seen: as an animation has it, while one plays."""
+        try:
+            return self.player.scene(self.scene)
+        except edit.EditError as error:
+            self.player.stop()
+            self.complain(str(error))
+            return self.scene
+
+    @property
+    def shown_view(self) -> View:
+        """The view, led by an animation while one plays that leads it."""
+        return self.view.moved(self.player.camera(self.view.camera))
+
+    @property
     def history(self) -> edit.History:
         return self.document.history
 
@@ -61,6 +115,12 @@ class Session:
     def theme(self) -> str:
         chosen = self.settings.preferences.get("theme")
         return chosen if chosen in actions.THEMES else actions.THEMES[0]
+
+    @property
+    def percent(self) -> int:
+        """How large everything in the window is, in hundredths of its usual size."""
+        chosen = self.settings.preferences.get("percent")
+        return chosen if chosen in actions.SIZES else 100
 
     @property
     def refining(self) -> bool:
@@ -99,6 +159,22 @@ class Session:
                 self._change(intent.label, lambda scene: edit.put(scene, intent.path, intent.value))
             case Release():
                 self.release()
+            case Take(gesture):
+                self.release()
+                self.player.stop()
+                self.history.begin(gesture.label)
+                self.held = Held(gesture)
+            case Pull(held):
+                self.held = held
+                self._change(held.gesture.label, lambda _: held.scene)
+            case Show(scene):
+                self._change("", lambda _: scene)
+            case Drop():
+                self.drop()
+            case Equip(kit):
+                self.kit = kit
+            case Choose(shapes, add):
+                self.selection = self.selection.chosen(shapes, add)
             case Reset():
                 self._reset(intent)
             case Edit(label, change):
@@ -108,8 +184,20 @@ class Session:
                 self.selection = self.selection.picked(shape, strip, add)
             case Look(camera):
                 self.look(camera)
+            case See(view):
+                self.view = view
             case Resize(size):
                 self._resize(size)
+            case Play(animation, share, running):
+                self.player.play(animation, share, running)
+            case Stop():
+                self.player.stop()
+            case Animate(path, label):
+                self._animate(path, label)
+            case Pick(animation):
+                self.animation = animation
+            case Prefer(name, value):
+                self.keep(self.settings.preferring(**{name: value}))
             case Do(action):
                 actions.perform(self, action)
             case Ask(dialog):
@@ -138,7 +226,8 @@ class Session:
     # Edits
 
     def release(self) -> None:
-        """The control that was held is let go: its drag becomes one step."""
+        """What was held is let go: its drag becomes one step."""
+        self.held = None
         if self.history.dragging:
             label, steps = self.history.undo_label, len(self.history.labels)
             self.history.commit()
@@ -147,7 +236,14 @@ class Session:
             if changed:
                 self.say(label)
 
+    def drop(self) -> None:
+        """What was held is let go, and everything put back."""
+        self.history.cancel()
+        self.held = None
+        self.say("")
+
     def undo(self) -> None:
+        self.held = None
         if self.history.can_undo:
             label = self.history.undo_label
             self.history.undo()
@@ -171,6 +267,16 @@ class Session:
         else:
             self.history.apply(scene, label)
             self.say(label)
+
+    def _animate(self, path: Location, label: str) -> None:
+        """In the animation that is picked, or in a new one, which is picked then; and the timeline is there to see."""
+        self.release()
+        count = len(self.scene.animations)
+        index = self.animation if self.animation is not None and self.animation < count else None
+        self._change(f"Animate {label}", lambda scene: animate(scene, path, index, label))
+        if index is None and len(self.scene.animations) > count:
+            self.animation = count
+        self.hidden_panels.discard("Timeline")
 
     def _reset(self, intent: Reset) -> None:
         """The first click of a double click has moved the slider: that step goes."""
@@ -204,18 +310,27 @@ class Session:
                 self.finished = True
 
     def save(self, path: Path | None, then: Departure | None = None) -> None:
-        """Save to this file, or ask for one where there is none yet, and then go on to somewhere else."""
+        """Save to this file, or ask for one where there is none yet, and then go on to somewhere else.
+
+        What another program wrote to the document's own file is not overwritten without a question.
+        """
         self._after_saving = then
         if path is None:
             self.dialogs.append(ChooseFile("save", self.folder, self.document.file_name))
-            return
+        elif path == self.document.path and self.document.overtaken:
+            self.dialogs.append(Overwrite(path, then))
+        else:
+            self.write(path, then)
+
+    def write(self, path: Path, then: Departure | None = None) -> None:
+        """Save to this file, whatever it holds."""
         try:
-            self.document.save(path, self.view.stored(self.scene.view))
+            kept = self.document.save(path, self.view.stored(self.scene.view))
         except (OSError, files.PresetError) as error:
             self.tell("Not saved", _lines(path, error))
             return
         self.keep(self.settings.opened(path))
-        self.say(f"Saved {path.name}")
+        self.say(f"Saved {path.name}" if kept else f"Saved {path.name}; the version before it could not be kept")
         if then is not None:
             self.depart(then)
 
@@ -236,6 +351,32 @@ class Session:
         self.settings = settings
         settings.write()
 
+    def offer(self, lost: Iterable[files.Lost]) -> None:
+        """Ask what to do with the work that windows left which did not end as they should."""
+        found = tuple(lost)
+        if found:
+            self.dialogs.append(Recover(found))
+
+    def recover(self, lost: files.Lost, others: Iterable[files.Lost]) -> None:
+        """Go on where that window was; the other ones' work is offered again next time."""
+        document, faults = recovered(lost)
+        if document is None:
+            self.offer([lost, *others])
+            self.tell("Not recovered", faults)
+            return
+        for other in others:
+            other.release()
+        self._show(document)
+        self.say(f"Recovered {lost.origin.name}, as it was at {said(lost.time)}")
+        lost.discard() if self.recovery.keep(self) else lost.release()
+        if faults:
+            self.tell("Recovered from the copy before the last one", faults)
+
+    def forget(self, lost: files.Lost, others: Iterable[files.Lost]) -> None:
+        """Throw that work away."""
+        lost.discard()
+        self.offer(others)
+
     def _open(self, path: Path) -> None:
         try:
             document = Document.opened(path)
@@ -251,6 +392,8 @@ class Session:
     def _show(self, document: Document) -> None:
         """From now on this is the document, seen as it was saved or else from where all of it is seen."""
         self.document = document
+        self.player.stop()
+        self.animation = None
         self._region = document.scene, region(document.scene)
         self.selection = Selection((0,)).within(document.scene)
         view = restored(document.scene.view)
@@ -285,7 +428,11 @@ class Session:
         self.say(f"Exporting {settings.path.name}")
 
     def poll(self) -> None:
-        """Once a frame: tell how an export ended."""
+        """Once a frame: tell how an export ended, keep copies of what is not saved, and go on with what plays."""
+        self.player.advance(monotonic())
+        fault = self.recovery.tick(self)
+        if fault:
+            self.complain(fault)
         job = self.export
         if job is None or job.running:
             return

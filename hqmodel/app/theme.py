@@ -9,9 +9,10 @@ Color = tuple[float, float, float, float]
 ACCENT: Color = (0.86, 0.52, 0.28, 1.0)
 
 
-def apply(name: str, scale: float) -> None:
-    """Set ImGui's style; sizes are multiplied by the screen's scale."""
+def apply(name: str, scale: float, size: float) -> None:
+    """Set ImGui's style; lengths are multiplied by the screen's scale, and they and the letters by the size that is wanted."""
     style = imgui.get_style()
+    style.font_scale_main, scale = size, scale * size
     imgui.style_colors_light() if name == "light" else imgui.style_colors_dark()
     for field, value in _SPACES.items():
         scaled = (value[0] * scale, value[1] * scale) if isinstance(value, tuple) else value * scale

@@ -4,20 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
-from math import isfinite
 from typing import Any
 
-from hqmodel.model import Camera
+from hqmodel.field import Plane
+from hqmodel.model import Camera, remembered
 
-MODES = ("clay", "normals", "curvature", "strips", "depth")
+MODES = ("clay", "porcelain", "metal", "studio", "normals", "curvature", "strips", "depth")
 
 
 @dataclass(frozen=True)
 class View:
-    """The camera and what the surface is coloured by."""
+    """The camera and what the surface is coloured by.
+
+    `cut`: the plane of a section view; what is on the side of its normal is not shown. `ghosts`: whether carving shapes are.
+    """
 
     camera: Camera = field(default_factory=Camera)
     mode: str = MODES[0]
+    cut: Plane | None = None
+    ghosts: bool = True
 
     def moved(self, camera: Camera) -> View:
         """The same seen from elsewhere."""
@@ -30,28 +35,8 @@ class View:
 
 def restored(stored: Mapping[str, Any]) -> View | None:
     """The view a preset remembers, None where it remembers none or nothing that can be used."""
-    camera = _camera(stored.get("camera"))
+    camera = remembered(stored.get("camera"))
     if camera is None:
         return None
     mode = stored.get("mode")
     return View(camera, mode if mode in MODES else MODES[0])
-
-
-def _camera(stored: object) -> Camera | None:
-    if not isinstance(stored, Mapping):
-        return None
-    defaults = asdict(Camera())
-    known = {key: stored[key] for key in defaults if key in stored}
-    target = known.get("target", defaults["target"])
-    numbers = [known.get(key, defaults[key]) for key in ("distance", "azimuth", "elevation", "field_of_view")]
-    if not isinstance(target, (list, tuple)) or len(target) != 3 or not all(map(_number, [*target, *numbers])):
-        return None
-    distance, azimuth, elevation, angle = map(float, numbers)
-    if not (distance > 0 and abs(elevation) <= 90 and 0 < angle < 180):
-        return None
-    x, y, z = map(float, target)
-    return Camera((x, y, z), distance, azimuth, elevation, angle, known.get("orthographic") is True)
-
-
-def _number(value: object) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and isfinite(value)

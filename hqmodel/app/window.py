@@ -11,18 +11,20 @@ from pathlib import Path
 import moderngl
 from imgui_bundle import hello_imgui, imgui
 
-from hqmodel import files
 from hqmodel.files import settings_folder
+from hqmodel.gpu import Legend, Seen
 
 from . import layout, native, theme
 from .asks import ChooseFile, Open, Quit
 from .canvas import Canvas
 from .dialogs import front
 from .form import Memory
-from .guard import Guard, rescued
+from .guard import Guard
+from .hands.hand import Hand
 from .intents import Intent, Release
-from .panels import menus, outliner, presets, properties, scene, slice_bar, status, viewport
+from .panels import menus, outliner, presets, properties, scene, slice_bar, status, timeline, viewport
 from .session import Session
+from .shelf import stocked
 from .thumbnails import Thumbnails
 
 # Idle, the window draws one frame in so many seconds; whatever happens wakes it at once.
@@ -37,34 +39,41 @@ SLICE_BAR = 2.6
 
 
 class Window:
-    """Draws a session until it is finished. `params` is what hello_imgui runs."""
+    """Draws a session until it is finished. `params` is what hello_imgui runs; `scale` the screen's, where that won't find it."""
 
-    def __init__(self, session: Session, native_dialogs: bool = True) -> None:
+    def __init__(self, session: Session, native_dialogs: bool = True, scale: float = 1.0) -> None:
         self.session = session
         session.wake = hello_imgui.request_refresh
         self.guard = Guard(session)
         self._memory = Memory()
         self._tree = outliner.Tree()
-        self._shelf = presets.Shelf(files.builtin())
-        self._hand = viewport.Hand()
+        self._slider = slice_bar.Slider()
+        self._reel = timeline.Reel()
+        self._shelf = stocked()
+        self.hand = Hand()
         self.chooser = native.NativeChooser() if native_dialogs and native.available() else None
         self._shown = layout.Shown()
         self._dropped: list[Path] = []
         self._title = ""
         self._stirred = 0.0
-        self._themed: tuple[str, float] | None = None
+        self._themed: tuple[str, float, float] | None = None
         self.panels = self._panels()
         self.params = self._parameters()
+        if scale != 1.0:
+            self.params.dpi_aware_params.dpi_window_size_factor = scale
 
     def run(self) -> None:
         """Until it is closed. Should drawing itself fail, what is not saved is kept before that goes on."""
+        recovery = self.session.recovery
         try:
             hello_imgui.run(self.params)
         except BaseException:
-            kept = rescued(self.session.scene) if self.session.history.dirty else None
+            kept = recovery.keep(self.session) if self.session.history.dirty else None
             if kept is not None:
                 print(f"hqmodel: what was not saved is in {kept}", file=sys.stderr)
+            recovery.close(keep=True)
             raise
+        recovery.close()
 
     # What hello_imgui is told
 
@@ -107,10 +116,11 @@ class Window:
         return {
             "Outliner": lambda: outliner.draw(session, self._tree),
             "Presets": lambda: presets.draw(session, self._shelf, self.thumbnails.texture),
-            "Viewport": lambda: viewport.draw(session, self._hand, self),
+            "Viewport": lambda: viewport.draw(session, self.hand, self),
             "Properties": lambda: properties.draw(session, memory),
             "Scene": lambda: scene.draw(session, memory),
-            "Slice": lambda: slice_bar.draw(session, memory),
+            "Timeline": lambda: timeline.draw(session, self._reel),
+            "Slice": lambda: slice_bar.draw(session, memory, self._slider),
         }
 
     def _draw(self, name: str) -> Iterable[Intent]:
@@ -156,14 +166,16 @@ class Window:
     def _after(self) -> None:
         """Behind all panels: dialogs, the end of drags, and whether another frame is needed."""
         self.guard.run("Dialog", self._dialog)
-        if self.session.history.dragging and not imgui.is_any_item_active():
+        busy = imgui.is_any_item_active() or self.session.held is not None or self.hand.gizmo.before is not None
+        if self.session.history.dragging and not busy:
             self.session.apply([Release()])
         better = self._canvas.unfinished and self.session.refining
         if self.thumbnails.waiting and not better and self._spare():
             self.guard.run("Thumbnails", self._thumbnail)
         # ImGui spreads keys pressed in quick succession over several frames, which a window at rest would not draw
         pressed = len(imgui.get_current_context().input_events_queue) > 0
-        if better or pressed or self.thumbnails.waiting or self.session.export or self._choosing:
+        under_way = self.session.export or self.session.player.running or self._choosing
+        if better or pressed or under_way or self.thumbnails.waiting:
             hello_imgui.request_refresh()
 
     def _dialog(self) -> Iterable[Intent]:
@@ -191,13 +203,17 @@ class Window:
 
     def draw(self, size: tuple[int, int]) -> int:
         session = self.session
-        texture = self._canvas.draw(session.scene, session.view, size, self._spare() if session.refining else 0.0)
-        session.located(session.scene, self._canvas.region)
+        spare = self._spare() if session.refining else 0.0
+        texture = self._canvas.draw(session.shown, session.shown_view, size, spare, self.hand.lit)
+        session.located(session.shown, self._canvas.region)
         return texture
 
-    def shape_at(self, size: tuple[int, int], pixel: tuple[int, int]) -> int | None:
-        seen = self._canvas.pick(self.session.view.camera, size, pixel)
-        return None if seen is None else seen.shape
+    def seen(self, size: tuple[int, int], pixel: tuple[int, int]) -> Seen | None:
+        return self._canvas.pick(self.session.view, size, pixel)
+
+    @property
+    def legend(self) -> Legend:
+        return self._canvas.legend
 
     def _thumbnail(self) -> Iterable[Intent]:
         self.thumbnails.work()
@@ -211,7 +227,7 @@ class Window:
         return self.session.finished
 
     def _restyle(self) -> None:
-        wanted = self.session.theme, hello_imgui.dpi_window_size_factor()
+        wanted = self.session.theme, hello_imgui.dpi_window_size_factor(), self.session.percent / 100
         if wanted != self._themed:
             theme.apply(*wanted)
             self._themed = wanted

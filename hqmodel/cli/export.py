@@ -16,13 +16,20 @@ from .progress import progress
 
 Unit = Literal["mm", "cm", "m", "in"]
 Up = Literal["z", "y"]
+Method = Literal["cubes", "radial"]
 Output = Annotated[
     list[Path],
     typer.Option(
         "-o", "--output", metavar="FILE", help="The mesh file; its ending says the format. May be repeated.", show_default=False
     ),
 ]
-Resolution = Annotated[int, typer.Option("--resolution", metavar="N", min=4, max=2048, help="Cells along the longest side.")]
+Resolution = Annotated[
+    int,
+    typer.Option("--resolution", metavar="N", min=4, max=2048, help="Cells along the longest side; radial: quads round it."),
+]
+Method_ = Annotated[
+    Method, typer.Option("--method", help="Marching cubes, or a radial grid: quads with texture coordinates, in .obj.")
+]
 TargetFaces = Annotated[
     int | None, typer.Option("--target-faces", metavar="N", min=4, help="Reduce the mesh to at most so many triangles.")
 ]
@@ -37,6 +44,7 @@ def export(
     preset: Preset,
     output: Output,
     resolution: Resolution = 256,
+    method: Method_ = "cubes",
     target_faces: TargetFaces = None,
     unit: Unit_ = None,
     size: Size = None,
@@ -48,7 +56,7 @@ def export(
     as_json: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """Write the body as a triangle mesh.
+    """Write the body as a mesh.
 
     The ending says the format: .obj, .ply, .stl, .glb or .3mf. Several -o write several files from one mesh.
     """
@@ -58,10 +66,17 @@ def export(
 
     if size is not None and not mesh.SIZES[0] <= size <= mesh.SIZES[1]:
         raise Fault(f"--size: expected a number from {mesh.SIZES[0]:g} to {mesh.SIZES[1]:g}, got {size:g}", USAGE)
+    if method == "radial" and target_faces is not None:
+        raise Fault("--target-faces: expected --method cubes with it, got radial", USAGE)
     checked(output, mesh.FORMATS, [preset])
     try:
         with progress(quiet) as report:
-            body = mesh.sized(mesh.polygonize(scene, resolution, report, target_faces=target_faces), size)
+            made = (
+                mesh.radial_quads(scene, resolution, report)
+                if method == "radial"
+                else mesh.polygonize(scene, resolution, report, target_faces=target_faces)
+            )
+            body = mesh.sized(made, size)
         result = mesh.report(body)
         shaded = replace(body, colors=body.colors if colors else None, normals=body.normals if normals else None)
         with writing(output) as streams:
@@ -70,11 +85,13 @@ def export(
                 mesh.write(mesh.fitted(shaded, suffix, unit=unit, up=up), stream, suffix, scene.name)
     except mesh.MeshError as error:
         raise Fault(f"{preset}: {error}", INPUT) from None
+    result |= {"method": method, "quads": len(body.quads.corners) if body.quads else 0}
     result |= {"resolution": resolution, "seconds": perf_counter() - started, "files": [str(path) for path in output]}
     tell(result, _text(result), as_json, quiet)
 
 
 def _text(result: dict[str, Any]) -> str:
     closed = "watertight" if result["watertight"] else "not watertight"
-    counts = f"{result['faces']:,} triangles, {result['vertices']:,} vertices, {closed}, volume {result['volume']:.6g}"
+    faces = f"{result['quads']:,} quads" if result["quads"] else f"{result['faces']:,} triangles"
+    counts = f"{faces}, {result['vertices']:,} vertices, {closed}, volume {result['volume']:.6g}"
     return f"{', '.join(result['files'])}: {counts}, {result['seconds']:.1f} s"

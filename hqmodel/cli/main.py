@@ -15,7 +15,7 @@ from typer.core import TyperGroup
 from hqmodel import __version__
 from hqmodel.files import PresetError, find
 
-from . import check, edit, export, fit, presets, raycast, render, sample, section
+from . import animate, check, edit, export, figures, fit, new, presets, raycast, render, sample, section
 from .faults import guarded
 
 
@@ -63,7 +63,7 @@ def _options(
     """See `Commands`."""
 
 
-for _module in (edit, export, render, section, sample, raycast, fit, check, presets):
+for _module in (edit, export, render, animate, section, sample, raycast, fit, new, check, presets, figures):
     app.command()(getattr(_module, _module.__name__.rpartition(".")[2]))
 
 

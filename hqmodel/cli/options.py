@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import re
-from typing import Annotated, Any
+from math import isfinite
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -13,6 +14,9 @@ from hqmodel.files import load
 from hqmodel.model import Scene, shown
 
 from .faults import USAGE, Fault
+
+if TYPE_CHECKING:
+    from hqmodel.field import Plane
 
 Preset = Annotated[str, typer.Argument(metavar="PRESET", help="A preset file, or the name of a built-in preset.")]
 Slice = Annotated[float | None, typer.Option("--slice", metavar="T", help="The slice t, instead of the preset's.")]
@@ -29,6 +33,8 @@ Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing but er
 
 # A decimal number as people and spreadsheets write it.
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
+PLANE_HELP = "x=D, y=D or z=D, or A,B,C=D for Ax + By + Cz = D."
+_AXES = {"x": "1,0,0", "y": "0,1,0", "z": "0,0,1"}
 
 
 def scene_of(preset: str, slice_t: float | None, settings: list[str] | None) -> Scene:
@@ -65,3 +71,17 @@ def _value(text: str) -> Any:
     except (ValueError, RecursionError):
         text = text.strip()
         return float(text) if NUMBER.fullmatch(text) else text
+
+
+def plane_of(option: str, text: str) -> Plane:
+    """The plane that an option asks for; that of an axis is seen from the right, the front or the top."""
+    from hqmodel.field import Plane  # late: it brings SciPy with it
+
+    left, equals, right = (part.strip() for part in text.partition("="))
+    numbers = [part.strip() for part in _AXES.get(left, left).split(",")]
+    if equals and len(numbers) == 3 and all(map(NUMBER.fullmatch, [*numbers, right])):
+        sign = -1.0 if left == "y" else 1.0  # seen from the front
+        x, y, z, offset = (sign * float(number) for number in (*numbers, right))
+        if all(map(isfinite, (x, y, z, offset))) and (x or y or z):
+            return Plane((x, y, z), offset)
+    raise Fault(f"{option}: expected a plane such as z=0.2 or 1,0,-1=0.5, got {shown(text)}", USAGE)

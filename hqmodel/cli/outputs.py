@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Collection, Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from math import isfinite
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, BinaryIO
 
 from hqmodel.files import atomic
@@ -43,6 +44,32 @@ def writing(paths: Sequence[Path]) -> Iterator[list[BinaryIO]]:
             yield [stack.enter_context(atomic(path)) for path in paths]
     except OSError as error:
         raise unwritable(error.filename or names, error) from None
+
+
+@contextmanager
+def filling(folder: Path) -> Iterator[Path]:
+    """An empty folder to write many files in, which move into `folder`, made where it isn't there, when the block ends well.
+
+    Raises Fault when one can't be written.
+    """
+    new = not folder.exists()
+    try:
+        folder.mkdir(exist_ok=True)
+        with TemporaryDirectory(prefix=".hqmodel-", suffix=".tmp", dir=folder) as draft:
+            yield Path(draft)
+            new = False
+            for path in sorted(Path(draft).rglob("*")):
+                target = folder / path.relative_to(draft)
+                if path.is_dir():
+                    target.mkdir(exist_ok=True)
+                else:
+                    path.replace(target)
+    except OSError as error:
+        raise unwritable(error.filename or folder, error) from None
+    finally:
+        if new:
+            with suppress(OSError):
+                folder.rmdir()
 
 
 def tell(result: dict[str, Any], text: str, as_json: bool, quiet: bool) -> None:

@@ -1,9 +1,9 @@
-"""A rotation as three angles that people can read, and back."""
+"""Rotations as unit quaternions x, y, z, w: from angles that people can read and back, about an axis, one after another."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import asin, atan2, copysign, cos, degrees, radians, remainder, sin
+from math import asin, atan2, copysign, cos, degrees, hypot, radians, remainder, sin
 
 Quaternion = tuple[float, float, float, float]
 
@@ -33,3 +33,25 @@ def quaternion(x: float, y: float, z: float) -> Quaternion:
         a * b * sc - sa * sb * c,
         a * b * c + sa * sb * sc,
     )
+
+
+def about(axis: Sequence[float], angle: float) -> Quaternion:
+    """The unit quaternion of a turn by so many degrees about an axis of any length, counter-clockwise seen from its tip."""
+    half, length = radians(angle) / 2, hypot(*axis)
+    x, y, z = (float(part) / length * sin(half) for part in axis)
+    return x, y, z, cos(half)
+
+
+def composed(second: Sequence[float], first: Sequence[float]) -> Quaternion:
+    """The turn that two unit quaternions make one after the other, of length 1 again."""
+    x, y, z, w = second
+    a, b, c, d = first
+    product = (
+        w * a + x * d + y * c - z * b,
+        w * b - x * c + y * d + z * a,
+        w * c + x * b - y * a + z * d,
+        w * d - x * a - y * b - z * c,
+    )
+    length = hypot(*product)
+    qx, qy, qz, qw = (part / length for part in product)
+    return qx, qy, qz, qw

@@ -5,12 +5,14 @@ from __future__ import annotations
 from hqmodel.model import Scene, Shape, Strip
 
 from .paths import put
-from .primitives import FLAT
+
+# An exponent flat enough to read as a face, round enough at the edges to catch the light.
+FLAT = 20.0
 
 
 def flattened(scene: Scene) -> Scene:
     """Every shape's outline in the plane z = 0: normals lose their z part, strips across z alone go, and shapes of only such."""
-    shapes = [flat for flat in map(_flat, scene.shapes) if flat is not None]
+    shapes = [flat for flat in map(outline, scene.shapes) if flat is not None]
     return put(put(scene, ("shapes",), shapes), ("dimension",), 2)
 
 
@@ -19,7 +21,8 @@ def extruded(scene: Scene) -> Scene:
     return put(put(scene, ("dimension",), 3), ("shapes",), [_solid(shape) for shape in scene.shapes])
 
 
-def _flat(shape: Shape) -> Shape | None:
+def outline(shape: Shape) -> Shape | None:
+    """The shape's section at its own z = 0, for a flat scene; None where no strip is left."""
     strips = [strip.changed(normal=(*strip.normal[:2], 0.0)) for strip in shape.strips if any(strip.normal[:2])]
     if not strips:
         return None

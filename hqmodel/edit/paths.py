@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from ast import literal_eval
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
@@ -13,6 +13,7 @@ from hqmodel.model import Scene, Shape, Strip, faults, place, shown
 from hqmodel.model.scene import Value
 
 Location = tuple[str | int, ...]
+V = TypeVar("V", bound=Value)
 
 _STEP = re.compile(r"""(?:^|\.)(?P<word>\w+)|\[(?P<index>\d{1,9})\]|\[(?P<text>'(?:[^'\\]|\\.)*'|"(?:[^"\\]|\\.)*")\]""")
 
@@ -82,6 +83,14 @@ def put(scene: Scene, path: str | Location, value: object) -> Scene:
             changed = _with(changed, one, value)
     try:
         return Scene.model_validate(changed)
+    except ValidationError as error:
+        raise EditError(faults(error)[0]) from None
+
+
+def changed(value: V, **changes: object) -> V:
+    """The value with some fields changed. Raises EditError where the result would not be a valid one."""
+    try:
+        return value.changed(**changes)
     except ValidationError as error:
         raise EditError(faults(error)[0]) from None
 

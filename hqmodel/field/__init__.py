@@ -14,34 +14,66 @@ from .evaluate import (
     term_weights,
     value,
 )
+from .faces import Face, face, image_at
+from .frames import PLANES, frame_residual, nearest_frame, slice_range, turned_frame
+from .generators import FEWEST_TERMS, FRAMES, SOLIDS, make_frame
 from .intervals import box_bounds, relevant_terms, segment_bounds
+from .plane import Plane
+from .radial import RadialSolution, approximate_radii, radial_solution
 from .rays import first_hits
 from .region import Region, reaches, region
+from .solvers import Evolved, Lattice, lattice_search, normal_evolution
+from .starlike import NotStarShaped, star_centre
 from .symmetry import mirror_axes
-from .terms import Terms
+from .terms import Terms, images, rotation_matrix, world_planes
 
 __all__ = [
+    "FEWEST_TERMS",
+    "FRAMES",
+    "PLANES",
+    "SOLIDS",
     "Curvature",
+    "Evolved",
+    "Face",
+    "Lattice",
+    "NotStarShaped",
+    "Plane",
+    "RadialSolution",
     "Region",
     "Terms",
+    "approximate_radii",
     "box_bounds",
     "curvature",
+    "face",
     "first_hits",
+    "frame_residual",
     "gradient",
+    "image_at",
+    "images",
+    "lattice_search",
     "linear_to_srgb",
     "log_gradient",
     "log_ratio",
+    "make_frame",
     "mirror_axes",
     "mixed_colors",
     "near_linear",
     "near_linear_gradient",
     "near_linear_single",
+    "nearest_frame",
+    "normal_evolution",
+    "radial_solution",
     "reaches",
     "region",
     "relevant_terms",
+    "rotation_matrix",
     "segment_bounds",
     "shaping_strip",
+    "slice_range",
     "srgb_to_linear",
+    "star_centre",
     "term_weights",
+    "turned_frame",
     "value",
+    "world_planes",
 ]

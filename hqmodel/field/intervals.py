@@ -22,7 +22,7 @@ _Ranges = Callable[[Terms, Array, Array], tuple[Array, Array]]
 
 def box_bounds(terms: Terms, low: ArrayLike, high: ArrayLike) -> tuple[Array, Array]:
     """Lower and upper bound of L, (n,) each, over the boxes from low to high, (n, 3) each."""
-    return _in_slices(terms, _box_ranges, np.asarray(low, dtype=float), np.asarray(high, dtype=float))
+    return _in_slices(terms, box_ranges, np.asarray(low, dtype=float), np.asarray(high, dtype=float))
 
 
 def segment_bounds(terms: Terms, start: ArrayLike, end: ArrayLike) -> tuple[Array, Array]:
@@ -59,7 +59,7 @@ def _in_slices(terms: Terms, ranges: _Ranges, first: Array, second: Array) -> tu
     return lower, upper
 
 
-def _box_ranges(terms: Terms, low: Array, high: Array) -> tuple[Array, Array]:
+def box_ranges(terms: Terms, low: Array, high: Array) -> tuple[Array, Array]:
     low, high = np.clip(low, -HUGE, HUGE), np.clip(high, -HUGE, HUGE)
     centre, half = low / 2 + high / 2, high / 2 - low / 2
     middle = strip_functions(terms, centre)
@@ -83,6 +83,6 @@ def relevant_terms(terms: Terms, low: ArrayLike, high: ArrayLike, negligible: fl
     """
     if len(terms) < 2:
         return terms
-    t_low, t_high = term_bounds(terms, *_box_ranges(terms, np.atleast_2d(low), np.atleast_2d(high)))
+    t_low, t_high = term_bounds(terms, *box_ranges(terms, np.atleast_2d(low), np.atleast_2d(high)))
     sides = [float(np.max(t_low[side], initial=-np.inf)) for side in (terms.positive, ~terms.positive)]
     return terms.keep(t_high[:, 0] >= max(*sides, terms.log_level) - negligible)

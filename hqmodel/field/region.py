@@ -5,18 +5,22 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hqmodel.model import Scene
 
-from .intervals import box_bounds
+from .intervals import box_bounds, relevant_terms
 from .powers import CEILING
-from .terms import HUGE, Array, Terms
+from .terms import HUGE, Array, Indices, Terms
 
 # A flat shape (dimension 2) is shown and exported as a plate this share of its longest side thick, to either side of z = 0.
 PLATE = 0.01
 # Cells along a side in the first look, and in the last.
 _COARSE, _FINE = 8, 64
 _MOST_CELLS = 20_000
+# From so many terms on each of so many parts along a side of the box has a list of those that are not too faint there, by this
+# power of e; all others change L by less than the last number.
+_FEW, _PARTS, _FAINT, _LEFT_OUT = 48, 3, 30.0, 1e-9
 # How far out, in the scene's own size, a body is taken to be without end.
 _FAR = 1e6
 
@@ -147,7 +151,7 @@ def _tightened(terms: Terms, box: Array, flat: bool, rounds: int = 60) -> Array 
         hull = _hull(terms, box, flat)
         if hull is None:
             return None
-        done = bool(np.all(hull[1] - hull[0] > 0.8 * (box[1] - box[0])))
+        done = bool(np.all(hull[1] - hull[0] >= 0.8 * (box[1] - box[0])))
         box = hull
         if done:
             break
@@ -159,15 +163,16 @@ def _hull(terms: Terms, box: Array, flat: bool) -> Array | None:
     counts = np.array([_COARSE, _COARSE, 1 if flat else _COARSE])
     cells = np.stack(np.meshgrid(*[np.arange(n) for n in counts], indexing="ij"), axis=-1).reshape(-1, 3)
     kept = np.empty((2, 0, 3))
+    parts = _Parts(terms, box)
     while True:
         low, high = _cell_box(box, counts, cells)
-        alive = box_bounds(terms, low, high)[1] > 0
+        alive = parts.alive(cells * _PARTS // counts, low, high)
         cells, low, high = cells[alive], low[alive], high[alive]
         corners = np.concatenate([kept, np.stack([low, high])], axis=1)
         if not corners.shape[1]:
             return None
         hull = np.stack([corners[0].min(axis=0), corners[1].max(axis=0)])
-        outer = np.any((low == hull[0]) | (high == hull[1]), axis=1) if not flat else np.ones(len(low), dtype=bool)
+        outer = np.any(((low == hull[0]) | (high == hull[1]))[:, : 2 if flat else 3], axis=1)
         if counts[0] >= _FINE or np.count_nonzero(outer) * 8 > _MOST_CELLS:
             return hull
         kept = np.concatenate([kept, np.stack([low[~outer], high[~outer]])], axis=1)
@@ -177,7 +182,33 @@ def _hull(terms: Terms, box: Array, flat: bool) -> Array | None:
         counts = counts * split
 
 
-def _cell_box(box: Array, counts: Array, cells: Array) -> tuple[Array, Array]:
+class _Parts:
+    """A box in parts along each side; a cell asks only the terms that can matter in its part."""
+
+    def __init__(self, terms: Terms, box: Array) -> None:
+        self._terms, self._box = terms, box
+        self._own: dict[bytes, Terms] = {}
+
+    def alive(self, parts: Indices, low: Array, high: Array) -> NDArray[np.bool_]:
+        """(n,) whether cells from low to high, (n, 3), may hold some of the body; `parts` (n, 3) says in which each lies."""
+        if len(self._terms) < _FEW:
+            return box_bounds(self._terms, low, high)[1] > 0
+        alive = np.empty(len(low), dtype=bool)
+        every, which = np.unique(parts, axis=0, return_inverse=True)
+        for number, part in enumerate(every):
+            here = which == number
+            alive[here] = box_bounds(self._of(part), low[here], high[here])[1] > -_LEFT_OUT
+        return alive
+
+    def _of(self, part: Indices) -> Terms:
+        key = part.tobytes()
+        if key not in self._own:
+            low, high = _cell_box(self._box, np.full(3, float(_PARTS)), part)
+            self._own[key] = relevant_terms(self._terms, low, high, _FAINT)
+        return self._own[key]
+
+
+def _cell_box(box: Array, counts: Array, cells: Array | Indices) -> tuple[Array, Array]:
     """Corners of cells, numbered along each axis; the outermost lie exactly on the box."""
     low, high = box
     share = cells / counts, (cells + 1) / counts

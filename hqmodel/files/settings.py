@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from platformdirs import user_config_path
+from platformdirs import user_config_path, user_state_path
 
 from .atomic import atomic
 
@@ -18,6 +18,11 @@ RECENT = 12
 def settings_folder() -> Path:
     """The folder for the program's settings; it need not exist."""
     return user_config_path("hqmodel", appauthor=False)
+
+
+def state_folder() -> Path:
+    """The folder for what the program keeps for safety: copies of unsaved work, earlier versions; it need not exist."""
+    return user_state_path("hqmodel", appauthor=False)
 
 
 @dataclass(frozen=True)

@@ -5,11 +5,13 @@ They live in the frame of the fit: the cloud's diagonal is 1, and a mirror plane
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -17,8 +19,10 @@ Indices = NDArray[np.intp]
 # What exponents are fitted between. Below the first a strip is a needle whose cusps no cloud resolves; above the second it
 # differs from a plane by less than a hundredth of its half-width even at a corner, and its derivatives carry no more news.
 GAMMAS = 0.3, 200.0
-HARDNESSES = 0.3, 60.0
-_FLIP = np.array([-1.0, 1.0, 1.0])
+FRAMED_GAMMAS = 1.5, 30.0
+HARDNESSES = 1.0, 30.0
+# What mirroring in x = 0 does to a point, or a normal.
+FLIP = np.array([-1.0, 1.0, 1.0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,6 +31,9 @@ class Bodies:
 
     h = normal . x + offset, the half-width being in the normal's length. Strips are sorted by the body they belong to. A
     mirrored body stands for two: its image in x = 0 is one more term of the sum, moved by the same numbers.
+
+    The first three strips of *framed* bodies stay at right angles and below the half-widths `widest`: so no body of a composite
+    can grow through the others into a place where no point tells of it.
     """
 
     normal: Array  # (S, 3)
@@ -36,6 +43,7 @@ class Bodies:
     hardness: Array  # (K,)
     sign: Array  # (K,) 1.0 adds, -1.0 carves
     mirrored: NDArray[np.bool_]  # (K,)
+    widest: Array | None = None  # (K, 3) the largest half-widths of framed bodies
 
     @classmethod
     def lone(cls, normal: Array, offset: Array, gamma: Array, hardness: float = 1.0, sign: float = 1.0) -> Bodies:
@@ -46,29 +54,106 @@ class Bodies:
     def __len__(self) -> int:
         return len(self.sign)
 
+    @property
+    def framed(self) -> bool:
+        """Whether the bodies are."""
+        return self.widest is not None
+
     @cached_property
     def start(self) -> Indices:
         """(K,) each body's first strip."""
         return np.searchsorted(self.owner, np.arange(len(self))).astype(np.intp)
 
+    @cached_property
+    def summed(self) -> Array:
+        """(K, S) what sums the strips of each body: ones at its own."""
+        return (self.owner == np.arange(len(self))[:, None]).astype(float)
+
     @property
     def size(self) -> int:
         """How many numbers are free: those of `moved`."""
-        return 5 * len(self.owner) + (len(self) if len(self) > 1 else 0)
+        count, bodies = len(self.owner), len(self)
+        return 5 * count + (bodies if bodies > 1 else 0) - (3 * bodies if self.framed else 0)
 
     def moved(self, step: Array) -> Bodies:
-        """The bodies after a step of all free numbers: normals, offsets, ln gamma, and of several bodies ln hardness."""
+        """The bodies after a step of all free numbers: normals, offsets, ln gamma, and of several bodies ln hardness.
+
+        Of framed bodies the middle, the turn and ln of the three half-widths come first, then what further strips have.
+        """
+        if self.framed:
+            return self._frames_moved(step)
         count = len(self.owner)
         normal, offset, gamma, hardness = np.split(step, [3 * count, 4 * count, 5 * count])
-        return replace(
-            self,
-            normal=self.normal + normal.reshape(-1, 3),
-            offset=self.offset + offset,
-            gamma=np.clip(self.gamma * np.exp(np.clip(gamma, -1.0, 1.0)), *GAMMAS),
-            hardness=np.clip(self.hardness * np.exp(np.clip(hardness, -1.0, 1.0)), *HARDNESSES)
-            if len(self) > 1
-            else self.hardness,
+        moved = replace(self, normal=self.normal + normal.reshape(-1, 3), offset=self.offset + offset)
+        return moved._pressed(gamma, hardness, GAMMAS)
+
+    def held(self, step: Array) -> NDArray[np.bool_]:
+        """(size,) which numbers of a step would only lead out of their range."""
+        count, bodies = len(self.owner), len(self)
+        held = np.zeros(self.size, dtype=bool)
+        behind = bodies if bodies > 1 else 0
+        gamma, hardness = np.split(np.arange(self.size - count - behind, self.size), [count])
+        for numbers, value, (low, high) in (
+            (gamma, self.gamma, FRAMED_GAMMAS if self.framed else GAMMAS),
+            (hardness, self.hardness[:behind], HARDNESSES),
+        ):
+            held[numbers] = (value <= low) & (step[numbers] < 0) | (value >= high) & (step[numbers] > 0)
+        if self.widest is not None:
+            width = 9 * np.arange(bodies)[:, None] + np.arange(6, 9)
+            first, _ = self._frames()
+            wide = np.linalg.norm(self.normal[first], axis=2) * self.widest <= 1 + 1e-9
+            held[width] = wide & (step[width] > 0)
+        return held
+
+    def reduced(self, rows: Array) -> Array:
+        """Derivatives by the numbers that `moved` takes, (size, N), of those by normals, offsets, ln gamma (and ln hardness)."""
+        if not self.framed:
+            return rows
+        count = len(self.owner)
+        by_normal, by_offset, rest = np.split(rows, [3 * count, 4 * count])
+        by_normal = by_normal.reshape(count, 3, -1)
+        first, further = self._frames()
+        m, middle = self.normal[first], self.middles
+        turned = np.cross(np.eye(3), m[:, :, None]).swapaxes(1, 2)  # (K, 3 turns, 3 strips, 3)
+        by_turn = turned.reshape(-1, 3, 9) @ by_normal[first].reshape(len(self), 9, -1)
+        by_turn -= np.einsum("ktaj,kj->kta", turned, middle) @ by_offset[first]
+        by_middle = -m.swapaxes(1, 2) @ by_offset[first]
+        by_width = -(m[:, :, None] @ by_normal[first])[:, :, 0] - self.offset[first][..., None] * by_offset[first]
+        frames = np.concatenate([by_middle, by_turn, by_width], axis=1).reshape(9 * len(self), -1)
+        return np.concatenate([frames, by_normal[further].reshape(3 * len(further), rows.shape[1]), by_offset[further], rest])
+
+    @cached_property
+    def middles(self) -> Array:
+        """(K, 3) where the first three strips of each body have their middles."""
+        first, _ = self._frames()
+        return np.asarray(np.linalg.solve(self.normal[first], -self.offset[first][..., None])[..., 0])
+
+    def _frames(self) -> tuple[Indices, Indices]:
+        """The first three strips of each body, (K, 3), and all further ones, (E,)."""
+        first = self.start[:, None] + np.arange(3)
+        return first, np.setdiff1d(np.arange(len(self.owner)), first)
+
+    def _frames_moved(self, step: Array) -> Bodies:
+        first, further = self._frames()
+        frames, normal, offset, gamma, hardness = np.split(
+            step, np.cumsum([9 * len(self), 3 * len(further), len(further), len(self.owner)])
         )
+        shift, turn, width = np.split(frames.reshape(-1, 9), 3, axis=1)
+        rotation = Rotation.from_rotvec(np.clip(turn, -0.5, 0.5)).as_matrix()
+        turned = np.einsum("kij,kaj->kai", rotation, self.normal[first]) / np.exp(np.clip(width, -0.5, 0.5))[..., None]
+        turned *= np.maximum(1.0, 1.0 / (np.linalg.norm(turned, axis=2) * self.widest))[..., None]
+        normals, offsets = self.normal.copy(), self.offset.copy()
+        normals[first], offsets[first] = turned, -np.einsum("kai,ki->ka", turned, self.middles + shift)
+        normals[further] += normal.reshape(-1, 3)
+        offsets[further] += offset
+        return replace(self, normal=normals, offset=offsets)._pressed(gamma, hardness, FRAMED_GAMMAS)
+
+    def _pressed(self, gamma: Array, hardness: Array, gammas: tuple[float, float]) -> Bodies:
+        """With other exponents and, of several bodies, hardnesses."""
+        exponent = np.clip(self.gamma * np.exp(np.clip(gamma, -1.0, 1.0)), *gammas)
+        if len(self) == 1:
+            return replace(self, gamma=exponent)
+        return replace(self, gamma=exponent, hardness=np.clip(self.hardness * np.exp(np.clip(hardness, -1.0, 1.0)), *HARDNESSES))
 
     def images(self) -> Bodies:
         """The same with every mirror image a body of its own, after the others."""
@@ -77,7 +162,7 @@ class Bodies:
         twice = self.mirrored[self.owner]
         number = np.cumsum(self.mirrored) - 1 + len(self)
         return Bodies(
-            np.concatenate([self.normal, self.normal[twice] * _FLIP]),
+            np.concatenate([self.normal, self.normal[twice] * FLIP]),
             np.concatenate([self.offset, self.offset[twice]]),
             np.concatenate([self.gamma, self.gamma[twice]]),
             np.concatenate([self.owner, number[self.owner[twice]]]).astype(np.intp),
@@ -85,6 +170,19 @@ class Bodies:
             np.concatenate([self.sign, self.sign[self.mirrored]]),
             np.zeros(len(self) + int(self.mirrored.sum()), dtype=bool),
         )
+
+    def only(self, body: int) -> Bodies:
+        """One of the bodies alone."""
+        own = self.owner == body
+        here = slice(body, body + 1)
+        owner = np.zeros(int(own.sum()), dtype=np.intp)
+        normal, offset, gamma = self.normal[own], self.offset[own], self.gamma[own]
+        widest = None if self.widest is None else self.widest[here]
+        return Bodies(normal, offset, gamma, owner, self.hardness[here], self.sign[here], self.mirrored[here], widest)
+
+    def others(self, body: int) -> list[Bodies]:
+        """All the other bodies, each alone."""
+        return [self.only(k) for k in range(len(self)) if k != body]
 
     def without_strip(self, strip: int) -> Bodies:
         """One strip less."""
@@ -106,3 +204,12 @@ class Bodies:
             gamma=np.insert(self.gamma, at, gamma),
             owner=np.insert(self.owner, at, body),
         )
+
+
+def joined(parts: Sequence[Bodies]) -> Bodies:
+    """All of some framed bodies in one."""
+    before = np.cumsum([0, *[len(part) for part in parts]])
+    owner = np.concatenate([part.owner + first for part, first in zip(parts, before, strict=False)])
+    columns = ("normal", "offset", "gamma", "hardness", "sign", "mirrored", "widest")
+    normal, offset, gamma, *rest = (np.concatenate([getattr(part, name) for part in parts]) for name in columns)
+    return Bodies(normal, offset, gamma, owner, *rest)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -57,6 +57,12 @@ class Cloud:
         return float(np.median(cKDTree(self.points).query(self.points[:2000], 2)[0][:, 1]))
 
     @cached_property
+    def span(self) -> float:
+        """How far outliers lie from any surface: they fill the cloud's box, so many times as large as it has area."""
+        x, y, z = np.maximum(np.ptp(self.points @ self.frame.rotation, axis=0), _FLAT)
+        return float(x * y * z / (2 * (x * y + y * z + z * x)))
+
+    @cached_property
     def trusted(self) -> NDArray[np.bool_]:
         """(N,) which points have company: a surface's points do, outliers seldom."""
         reach = neighbours(self.points)[0][:, -1]
@@ -65,6 +71,12 @@ class Cloud:
     def part(self, count: int) -> Cloud:
         """The first so many points: a random sample."""
         return self.only(slice(count)) if count < len(self.points) else self
+
+    def reframed(self, frame: Frame) -> Cloud:
+        """The same points in another frame of the same size."""
+        turn = self.frame.rotation.T
+        where = self.points @ turn * self.frame.size + self.frame.centre
+        return replace(self, points=frame.local(where), normals=self.normals @ turn @ frame.rotation.T, frame=frame)
 
     def only(self, chosen: slice | NDArray[np.bool_]) -> Cloud:
         """Some of the points."""

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from .bodies import Array, Bodies
+from .bodies import FLIP, Array, Bodies
 
 # |h| nearer to 0 than this is held there: an exponent below 1 has an infinite slope at 0.
 _NEAR = 1e-7
-# Newton's steps to the gauge.
-_ROUNDS = 8
+# Steps to a foot after the first, and how short the last is to be.
+_STEPS, _THERE = 5, 1e-3
+# Newton's steps to the gauge, and how short the last is: its square, times an exponent, is what is still missing.
+_ROUNDS, _SHORT = 8, 1e-5
 # ln of the largest |h|^gamma.
 _MOST = 300.0
 # No point is further from the surface than the cloud is long.
@@ -23,24 +25,35 @@ FARTHEST = 1.0
 class Measured:
     """The distances (N,) of points (N, 3) from the surface, positive outside, at most `FARTHEST`; on demand their derivatives.
 
-    Two steps lead to a point's foot on the surface: one alone takes a point beyond a sharp edge for one of the face it is level
-    with. How the distance changes is decided near the foot, -dL / |grad L| there: decided at the point itself, noise would push
-    the shape, as a point further out has the longer lever.
+    Newton's steps lead to each point's foot on the surface; one alone would take a point beyond a sharp edge for one of the face
+    it is level with. How the distance changes is decided at the foot, -dL / |grad L| there: decided at the point itself, noise
+    would push the shape, as a point further out has the longer lever. Of a point whose `side` (N,) is 1 or -1 it is enough to
+    know whether it lies on that side, outside or inside.
     """
 
-    def __init__(self, bodies: Bodies, points: Array) -> None:
-        first = _look(bodies.images(), points)
-        away = first.distance * first.normal
-        self._bodies, self._near = bodies, points - away.T
-        self._look = _look(bodies.images(), self._near)
-        away += self._look.distance * self._look.normal
-        self.distance = np.clip(np.copysign(np.linalg.norm(away, axis=0), first.distance), -FARTHEST, FARTHEST)
+    def __init__(self, bodies: Bodies, points: Array, side: Array | None = None) -> None:
+        self._bodies, every = bodies, bodies.images()
+        look = _look(every, points)
+        sense, step = np.sign(look.distance), (look.distance * look.normal).T
+        foot, last = points - step, np.abs(look.distance)
+        if side is not None:
+            last[side * sense > 0] = 0.0
+        for _ in range(_STEPS):
+            far = np.flatnonzero(last > _THERE)
+            if not len(far):
+                break
+            look = _look(every, foot[far])
+            foot[far] -= (look.distance * look.normal).T
+            last[far] = np.abs(look.distance)
+        self._foot = foot
+        self.distance = np.minimum(np.linalg.norm(points - foot, axis=1), FARTHEST) * sense
 
     def rows(self) -> Array:
         """The derivatives (`bodies.size`, N) by the numbers that `Bodies.moved` takes."""
-        rows = _folded(self._bodies, self._look.rows(self._near, len(self._bodies) > 1))
-        rows /= -self._look.length
-        return rows
+        look = _look(self._bodies.images(), self._foot)
+        rows = _folded(self._bodies, look.rows(self._foot, len(self._bodies) > 1))
+        rows /= -look.length
+        return self._bodies.reduced(rows)
 
 
 def distances(bodies: Bodies, points: Array) -> Array:
@@ -51,6 +64,14 @@ def distances(bodies: Bodies, points: Array) -> Array:
 def gauge(body: Bodies, points: Array) -> Array:
     """How many times larger a lone body, grown about its middle, would have each of points (N, 3) on its surface: (N,)."""
     return np.exp(_Gauge(body, points).log_gauge)
+
+
+def strengths(bodies: Bodies, points: Array) -> Array:
+    """Each body's term T at points (N, 3), (K, N), the stronger of its images'; of bodies that carve -inf."""
+    terms = np.where(bodies.images().sign[:, None] > 0, _Blend(bodies.images(), points).t, -np.inf)
+    result = terms[: len(bodies)].copy()
+    result[bodies.mirrored] = np.maximum(result[bodies.mirrored], terms[len(bodies) :])
+    return result
 
 
 def normals(bodies: Bodies, points: Array) -> Array:
@@ -80,7 +101,7 @@ class _Gauge:
             total = np.sum(power, axis=0)
             step = np.log(total) * total / np.sum(gamma * power, axis=0)
             log_gauge += step
-            if np.max(step) < 1e-9:
+            if np.max(step) < _SHORT:
                 break
         self.log_gauge = log_gauge
         self.pull = gamma * np.exp(gamma * (log_h - log_gauge))
@@ -104,7 +125,7 @@ class _Blend:
         size = np.maximum(np.abs(h), _NEAR)
         self.log_h = np.log(size)
         self.power = np.exp(np.minimum(bodies.gamma[:, None] * self.log_h, _MOST))
-        total = np.add.reduceat(self.power, bodies.start, axis=0)
+        total = bodies.summed @ self.power
         self.t = bodies.hardness[:, None] * (1.0 - total)
         ratio = self._weigh()
         pull = self.share * bodies.hardness[:, None]
@@ -132,7 +153,7 @@ class _Blend:
         bodies = self.bodies
         adds = bodies.sign > 0
         hard = np.sum(pull[adds], axis=0)
-        rate = np.add.reduceat(self.power * bodies.gamma[:, None], bodies.start, axis=0) / np.maximum(total, 1e-300)
+        rate = (bodies.summed * bodies.gamma) @ self.power / np.maximum(total, 1e-300)
         steep = np.sum((pull * rate)[adds], axis=0) / hard
         h_sum = np.maximum(1.0 - ratio / hard, 1e-9)
         with np.errstate(over="ignore"):
@@ -169,7 +190,7 @@ def _folded(bodies: Bodies, rows: Array) -> Array:
     every = count + len(more)
     normal, offset, gamma, hardness = np.split(rows, [3 * every, 4 * every, 5 * every])
     normal = normal.reshape(every, 3, -1)
-    normal[more] += normal[count:] * np.array([-1.0, 1.0, 1.0])[:, None]
+    normal[more] += normal[count:] * FLIP[:, None]
     for part, whole, own in (
         (offset, count, more),
         (gamma, count, more),

@@ -15,10 +15,14 @@ from .bodies import Array, Bodies
 from .cloud import FitError, Frame, prepared
 from .distance import distances
 from .lone import Step, Tell, lone_body
+from .parts import several_bodies
 from .scene import scene_of
 from .solve import Noise
+from .symmetry import mirrored_frame
 
 MOST_PARTS, MOST_STRIPS = 64, 32
+# As many as are made when nobody says how many.
+AUTO_PARTS = 16
 # Points whose distances are worked out at once.
 _CHUNK = 20_000
 
@@ -82,7 +86,13 @@ def fit(
     rng = np.random.default_rng(seed)
     where = np.asarray(points, dtype=float)
     cloud = prepared(where, normals, rng)
-    solution, steps = lone_body(cloud, strips, tolerance, rng, tell)
+    if parts == 1:
+        solution, steps = lone_body(cloud, strips, tolerance, rng, tell)
+    else:
+        frame = mirrored_frame(cloud)
+        cloud = cloud if frame is None else cloud.reframed(frame)
+        most = AUTO_PARTS if parts == "auto" else parts
+        solution, steps = several_bodies(cloud, most, strips, tolerance, rng, tell, frame is not None)
     tell(0.97, "Measuring")
     residuals = _residuals(solution.bodies, cloud.frame, where)
     tell(1.0, "Done")

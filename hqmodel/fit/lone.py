@@ -21,8 +21,14 @@ _LIFT = 0.01
 _HULL_POINTS = 300
 # How far beyond the hull they lie, and how deep in the body one has to be to count, in the cloud's deviations.
 _BEYOND, _SOFT = 0.1, 0.3
-# Starts that are refined, and strips that are tried each time.
-_BEST, _TRIED = 5, 4
+# Steps that all starts are tried by, and then the better third; starts that are refined, and those that strips are added to.
+_FIRST, _SECOND, _BEST, _GROWN = 4, 10, 5, 3
+# A deviation so many times the least is as good as it gets.
+_FOUND = 1.2
+# Strips that are tried each time.
+_TRIED = 4
+# Normals with such a cosine between them are tried once.
+_SAME = 0.9
 # Exponents that a new strip begins with.
 _NEW_GAMMAS = 3.0, 12.0
 
@@ -38,17 +44,33 @@ class Step:
 def evidence_of(cloud: Cloud, count: int, rng: np.random.Generator) -> Evidence:
     """What so many of the cloud's points tell: the surface, and that the body ends where they do, unless they say otherwise.
 
-    Normals are told by points a little outside that are to lie so far from the surface. The hull's say is weak: it holds the
-    side of a body that no point was seen of.
+    The hull's say is weak: it holds the side of a body that no point was seen of.
     """
     part = cloud.part(count)
     known = cloud.part(4 * MIDDLE)
     hull, thickness = beyond_hull(known.points[known.trusted], _BEYOND, _HULL_POINTS, rng)
-    surface, away = part.points, np.zeros(len(part.points))
-    if part.oriented:
-        surface = np.concatenate([surface, surface + _LIFT * part.normals])
-        away = np.concatenate([away, np.full(len(away), _LIFT)])
-    return Evidence(surface, away, outside=hull, softness=_SOFT * thickness)
+    return Evidence(*lifted(part), outside=hull, softness=_SOFT * thickness, span=cloud.span)
+
+
+def lifted(cloud: Cloud) -> tuple[Array, Array]:
+    """The points and how far from the surface they are to lie; outward normals are told by points a little outside."""
+    away = np.zeros(len(cloud.points))
+    if not cloud.oriented:
+        return cloud.points, away
+    return np.concatenate([cloud.points, cloud.points + _LIFT * cloud.normals]), np.concatenate([away, away + _LIFT])
+
+
+@dataclass(frozen=True, eq=False)
+class _Task:
+    """What is fitted, on how many points, and the limits."""
+
+    cloud: Cloud
+    coarse: Evidence
+    middle: Evidence
+    strips: int
+    floor: float
+    rng: np.random.Generator
+    tell: Tell
 
 
 def lone_body(cloud: Cloud, strips: int, floor: float, rng: np.random.Generator, tell: Tell) -> tuple[Solution, list[Step]]:
@@ -57,88 +79,89 @@ def lone_body(cloud: Cloud, strips: int, floor: float, rng: np.random.Generator,
     A strip stays when it lowers Schwarz's criterion, n ln(likelihood) against 5 numbers more, on a sample of `MIDDLE` points.
     """
     coarse, middle = (evidence_of(cloud, count, rng) for count in (COARSE, MIDDLE))
-    best = _best_start(cloud, coarse, middle, strips, floor, rng, tell)
-    steps = [Step(f"{len(best.bodies.owner)} strips to begin with", 0.0)]
-    best = _grown(cloud, middle, best, strips, floor, steps, tell)
-    best = _pruned(middle, best, floor, steps, tell)
-    tell(0.9, "Refining")
-    return solved(best.bodies, evidence_of(cloud, FINE, rng), floor, 40), steps
+    task = _Task(cloud, coarse, middle, strips, floor, rng, tell)
+    ends = []
+    for number, start in enumerate(_best_starts(task)):
+        tell(0.5 + 0.4 * number / _GROWN, "Adding strips")
+        ends.append(_finished(task, start))
+        if ends[-1][0].noise.sigma < _FOUND * floor:
+            break
+    best, steps = min(ends, key=lambda end: _criterion(end[0], middle))
+    return solved(best.bodies, evidence_of(cloud, FINE, rng), floor, 40, pause=lambda: tell(0.9, "Refining")), steps
 
 
-def _best_start(
-    cloud: Cloud, coarse: Evidence, middle: Evidence, strips: int, floor: float, rng: np.random.Generator, tell: Tell
-) -> Solution:
-    known = cloud.part(2 * MIDDLE)
+def _best_starts(task: _Task) -> list[Solution]:
+    """The few best of many starts, refined."""
+    known = task.cloud.part(2 * MIDDLE)
     begun = []
-    every = starts(known.points[known.trusted], known.normals[known.trusted], strips, rng)
+    every = starts(known.points[known.trusted], known.normals[known.trusted], task.strips, task.rng)
     for number, bodies in enumerate(every):
-        tell(0.4 * number / len(every), "Trying starts")
-        begun.append(solved(bodies, coarse, floor, 12))
-    begun.sort(key=lambda solution: _criterion(solution, coarse))
+        task.tell(0.4 * number / len(every), "Trying starts")
+        begun.append(solved(bodies, task.coarse, task.floor, _FIRST))
+    begun.sort(key=lambda solution: _criterion(solution, task.coarse))
+    begun = [solved(start.bodies, task.coarse, task.floor, _SECOND, start.noise) for start in begun[: len(begun) // 3]]
+    begun.sort(key=lambda solution: _criterion(solution, task.coarse))
     refined = []
     for number, solution in enumerate(begun[:_BEST]):
-        tell(0.4 + 0.1 * number / _BEST, "Refining starts")
-        refined.append(solved(solution.bodies, middle, floor, 25))
-    return min(refined, key=lambda solution: _criterion(solution, middle))
+        task.tell(0.4 + 0.1 * number / _BEST, "Refining starts")
+        refined.append(solved(solution.bodies, task.middle, task.floor, 25))
+    found = {round(_criterion(solution, task.middle)): solution for solution in refined}  # several come to the same
+    return [found[criterion] for criterion in sorted(found)[:_GROWN]]
 
 
-def _grown(cloud: Cloud, middle: Evidence, best: Solution, strips: int, floor: float, steps: list[Step], tell: Tell) -> Solution:
-    """With strips added as long as they earn their place."""
-    while (count := len(best.bodies.owner)) < strips:
-        tell(0.5 + 0.3 * count / strips, "Adding strips")
-        tried = [solved(bodies, middle, floor, 12) for bodies in with_one_more(cloud.part(MIDDLE), best)]
-        if not tried:
-            break
-        trial = min(tried, key=lambda solution: _criterion(solution, middle))
-        trial = solved(trial.bodies, middle, floor, 25, trial.noise)
-        gain = _criterion(best, middle) - _criterion(trial, middle)
+def _finished(task: _Task, start: Solution) -> tuple[Solution, list[Step]]:
+    """With strips added as long as they earn their place, and without those that can go."""
+    best, steps = start, [Step(f"{len(start.bodies.owner)} strips to begin with", 0.0)]
+    while (count := len(best.bodies.owner)) < task.strips and (trial := _with_best_strip(task, best)):
+        gain = _criterion(best, task.middle) - _criterion(trial, task.middle)
         if gain <= 0:
             break
         best = trial
         steps.append(Step(f"strip {count + 1} added", gain))
-    return best
-
-
-def _pruned(middle: Evidence, best: Solution, floor: float, steps: list[Step], tell: Tell) -> Solution:
-    """Without strips that can go."""
-    strip = len(best.bodies.owner) - 1
-    while strip >= 0 and len(best.bodies.owner) > 3:
-        tell(0.85, "Dropping strips")
-        trial = solved(best.bodies.without_strip(strip), middle, floor, 15, best.noise)
-        gain = _criterion(best, middle) - _criterion(trial, middle)
+    for strip in reversed(range(len(best.bodies.owner))):
+        if len(best.bodies.owner) == 3:
+            break
+        trial = solved(best.bodies.without_strip(strip), task.middle, task.floor, 15, best.noise)
+        gain = _criterion(best, task.middle) - _criterion(trial, task.middle)
         if gain > 0:
             best = trial
             steps.append(Step("strip dropped", gain))
-        strip -= 1
-    return best
+    return best, steps
 
 
-def with_one_more(cloud: Cloud, solution: Solution) -> list[Bodies]:
-    """The body with a strip more, in several ways: a plane laid against the surface where the distances are worst."""
+def _with_best_strip(task: _Task, best: Solution) -> Solution | None:
+    """The best of several ways to add a strip, if there are any."""
+    part = task.cloud.part(MIDDLE)
+    tried = [solved(bodies, task.middle, task.floor, 12) for bodies in with_one_more(part.only(part.trusted), best)]
+    if not tried:
+        return None
+    trial = min(tried, key=lambda solution: _criterion(solution, task.middle))
+    return solved(trial.bodies, task.middle, task.floor, 25, trial.noise)
+
+
+def with_one_more(cloud: Cloud, solution: Solution, body: int = 0) -> list[Bodies]:
+    """A body with a strip more, in several ways: a plane laid against its points, the cloud, where the distances are worst."""
     reach = max(4 * solution.noise.sigma, 0.02)
     miss = np.clip(distances(solution.bodies, cloud.points), -reach, reach)
-    worst = np.abs(np.mean(miss[neighbours(cloud.points)[1]], axis=1)) * cloud.trusted
+    worst = np.abs(np.mean(miss[neighbours(cloud.points)[1]], axis=1))
     ways = []
     for _ in range(_TRIED):
         if not worst.any():
             break
         at = int(np.argmax(worst))
         normal = cloud.normals[at]
-        ways += [
-            _with_plane(solution.bodies, cloud.points[cloud.trusted], cloud.points[at], normal, gamma) for gamma in _NEW_GAMMAS
-        ]
-        worst[np.abs(cloud.normals @ normal) > 0.9] = 0.0
+        ways += [_with_plane(solution.bodies, body, cloud.points, at, normal, gamma) for gamma in _NEW_GAMMAS]
+        worst[np.abs(cloud.normals @ normal) > _SAME] = 0.0
     return ways
 
 
-def _with_plane(bodies: Bodies, points: Array, at: Array, normal: Array, gamma: float) -> Bodies:
+def _with_plane(bodies: Bodies, body: int, points: Array, at: int, normal: Array, gamma: float) -> Bodies:
     """With a strip that has one plane at a point and the other behind all points."""
     along = points @ normal
-    here = float(at @ normal)
     low, high = np.quantile(along, (0.01, 0.99))
-    far = float(low if high - here < here - low else high)
-    half = max(abs(here - far) / 2, 1e-2)
-    return bodies.with_strip(0, normal / half, -(here + far) / 2 / half, gamma)
+    far = float(low if high - along[at] < along[at] - low else high)
+    half = max(abs(along[at] - far) / 2, 1e-2)
+    return bodies.with_strip(body, normal / half, -(along[at] + far) / 2 / half, gamma)
 
 
 def _criterion(solution: Solution, evidence: Evidence) -> float:

@@ -6,6 +6,7 @@ estimated along the way (as in Liu et al., CVPR 2022, and as usual with mixtures
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import log, pi, sqrt
 
@@ -14,9 +15,11 @@ import numpy as np
 from .bodies import Array, Bodies
 from .distance import Measured, distances
 
-# One outlier's share of a unit of distance: outliers fill the cloud's box, volume against area of what fits in it.
-_SPAN = 0.1
-_FEWEST, _MOST = 1e-3, 0.6
+_FEWEST = 1e-3
+# The share of the diagonal that is added to it at first, and steps that are tried in a round.
+_DAMPING, _TRIALS = 1e-2, 6
+# Times that numbers at the end of their range are looked for.
+_HELD = 2
 # The deviation to begin with, at least.
 _WIDE = 2e-3
 _NONE = np.empty((0, 3))
@@ -27,7 +30,8 @@ class Evidence:
     """What is known: points (N, 3) of the surface, and points that lie outside (M, 3) and inside (L, 3) of the body.
 
     `away` (N,) is where a surface point should lie instead of at distance 0. A point on the wrong side by more than about the
-    `softness` costs the likelihood exp(-doubt), and no more however deep it lies.
+    `softness`, or the noise if that is more, costs the likelihood exp(-doubt), and no more however deep it lies. `outliers` is
+    the largest share there may be; each is anywhere in a `span` of distance.
     """
 
     surface: Array
@@ -36,50 +40,58 @@ class Evidence:
     inside: Array = field(default_factory=lambda: _NONE)
     softness: float = 0.02
     doubt: float = 0.1
+    outliers: float = 0.6
+    span: float = 0.1
 
-    @property
-    def points(self) -> Array:
-        """All of them."""
-        return np.concatenate([self.surface, self.outside, self.inside])
+    def measured(self, bodies: Bodies) -> Measured:
+        """The distances of all points, surface, outside and inside."""
+        points = np.concatenate([self.surface, self.outside, self.inside])
+        return Measured(bodies, points, np.repeat([0.0, 1.0, -1.0], [len(self.surface), len(self.outside), len(self.inside)]))
 
     def misses(self, distance: Array) -> Array:
-        """How far each of `points` is from where it should be: those on the right side are."""
+        """How far each of these points is from where it should be: those on the right side are."""
         n, m = len(self.surface), len(self.outside)
         surface, outside, inside = np.split(distance, [n, n + m])
         return np.concatenate([surface - self.away, np.minimum(outside, 0.0), np.maximum(inside, 0.0)])
 
-    def side_cost(self, miss: Array) -> float:
-        """The negative log-likelihood of how far points are on their wrong side."""
-        return -self.doubt * float(np.sum(np.expm1(-0.5 * (miss / self.softness) ** 2)))
+    def cost(self, noise: Noise, miss: Array) -> float:
+        """The negative log-likelihood of how far all points are from where they should be."""
+        surface, sides = np.split(miss, [len(self.surface)])
+        soft = max(self.softness, noise.sigma)
+        return noise.cost(surface) - self.doubt * float(np.sum(np.expm1(-0.5 * (sides / soft) ** 2)))
 
-    def side_weights(self, miss: Array) -> Array:
-        """The weight of each of their squares."""
-        return np.where(miss != 0, self.doubt / self.softness**2 * np.exp(-0.5 * (miss / self.softness) ** 2), 0.0)
+    def weights(self, noise: Noise, miss: Array) -> Array:
+        """The weight of each point's square in a step that lowers the cost."""
+        surface, sides = np.split(miss, [len(self.surface)])
+        soft = max(self.softness, noise.sigma)
+        beside = self.doubt / soft**2 * np.exp(-0.5 * (sides / soft) ** 2) * (sides != 0)
+        return np.concatenate([noise.weights(surface) / noise.sigma**2, beside])
 
 
 @dataclass(frozen=True)
 class Noise:
-    """The surface points' standard deviation, and the share of outliers."""
+    """The surface points' standard deviation, the share of outliers, and the span of distance that one may be anywhere in."""
 
     sigma: float
-    outliers: float = 0.05
+    outliers: float
+    span: float
 
     def weights(self, miss: Array) -> Array:
         """(N,) how likely each point is one of the surface."""
         near = self._near(miss)
-        return near / (near + self.outliers / _SPAN)
+        return near / (near + self.outliers / self.span)
 
     def cost(self, miss: Array) -> float:
         """The negative log-likelihood of the distances."""
-        return -float(np.sum(np.log(self._near(miss) + self.outliers / _SPAN)))
+        return -float(np.sum(np.log(self._near(miss) + self.outliers / self.span)))
 
-    def updated(self, miss: Array, floor: float) -> Noise:
-        """The mixture that explains the distances better, its deviation at least `floor`."""
+    def updated(self, miss: Array, floor: float, most: float) -> Noise:
+        """The mixture that explains the distances better, its deviation at least `floor`, its outliers at `most`."""
         w = self.weights(miss)
         total = float(np.sum(w))
         sigma = sqrt(float(np.sum(w * miss**2)) / max(total, 1e-9))
         outliers = 1 - total / len(miss)
-        return Noise(max(sigma, floor), min(max(outliers, _FEWEST), _MOST))
+        return Noise(max(sigma, floor), min(max(outliers, _FEWEST), most), self.span)
 
     def _near(self, miss: Array) -> Array:
         return (1 - self.outliers) / (sqrt(2 * pi) * self.sigma) * np.exp(-0.5 * (miss / self.sigma) ** 2)
@@ -101,47 +113,63 @@ class Solution:
 def first_noise(bodies: Bodies, evidence: Evidence, floor: float) -> Noise:
     """The mixture to begin with: as wide as most distances are, so that nothing is taken for an outlier too soon."""
     miss = np.abs(distances(bodies, evidence.surface) - evidence.away)
-    return Noise(max(float(np.quantile(miss, 0.7)), _WIDE, floor))
+    return Noise(max(float(np.quantile(miss, 0.7)), _WIDE, floor), min(0.05, evidence.outliers), evidence.span)
 
 
-def solved(bodies: Bodies, evidence: Evidence, floor: float, rounds: int, noise: Noise | None = None) -> Solution:
+def solved(
+    bodies: Bodies,
+    evidence: Evidence,
+    floor: float,
+    rounds: int,
+    noise: Noise | None = None,
+    pause: Callable[[], None] | None = None,
+) -> Solution:
     """The bodies moved, by at most so many steps, to where the evidence is most likely.
 
-    `floor` is the deviation below which nothing is to be gained.
+    `floor` is the deviation below which nothing is to be gained. `pause` is called before each step; what it raises ends it all.
     """
     noise = first_noise(bodies, evidence, floor) if noise is None else noise
-    points, count = evidence.points, len(evidence.surface)
-    damping, still = 1e-2, 0
-    measured = Measured(bodies, points)
+    count = len(evidence.surface)
+    damping, still = _DAMPING, 0
+    measured = evidence.measured(bodies)
     miss = evidence.misses(measured.distance)
     for _ in range(rounds):
-        noise = noise.updated(miss[:count], floor)
-        cost = noise.cost(miss[:count]) + evidence.side_cost(miss[count:])
-        weight = np.concatenate([noise.weights(miss[:count]) / noise.sigma**2, evidence.side_weights(miss[count:])])
+        if pause:
+            pause()
+        noise = noise.updated(miss[:count], floor, evidence.outliers)
+        cost = evidence.cost(noise, miss)
         rows = measured.rows()
-        weighted = rows * weight
+        weighted = rows * evidence.weights(noise, miss)
         square, push = weighted @ rows.T, weighted @ miss
-        for _ in range(6):
-            trial = bodies.moved(_step(square, push, damping))
-            measured = Measured(trial, points)
+        for _ in range(_TRIALS):
+            step = _step(bodies, square, push, damping)
+            trial = bodies.moved(step)
+            measured = evidence.measured(trial)
             ahead = evidence.misses(measured.distance)
-            gain = cost - noise.cost(ahead[:count]) - evidence.side_cost(ahead[count:])
+            gain = cost - evidence.cost(noise, ahead)
+            share = gain / max(-float(step @ push + 0.5 * step @ square @ step), 1e-300)
+            damping *= 6.0 if share <= 0 else 2.0 if share < 0.25 else 1.0 if share < 0.75 else 0.2
             if gain > 0:
                 break
-            damping *= 5
         else:
             break
-        damping = max(damping / 6, 1e-9)
-        bodies, miss = trial, ahead
+        bodies, miss, damping = trial, ahead, max(damping, 1e-9)
         still = still + 1 if gain < 1e-4 * count**0.5 else 0
         if still >= 3:
             break
-    noise = noise.updated(miss[:count], floor)
-    return Solution(bodies, noise, noise.cost(miss[:count]) + evidence.side_cost(miss[count:]))
+    noise = noise.updated(miss[:count], floor, evidence.outliers)
+    return Solution(bodies, noise, evidence.cost(noise, miss))
 
 
-def _step(square: Array, push: Array, damping: float) -> Array:
-    """The damped step of all free numbers."""
+def _step(bodies: Bodies, square: Array, push: Array, damping: float) -> Array:
+    """The damped step of all free numbers; those that it would lead out of their range stay, and the others go without them."""
     diagonal = np.diagonal(square)
     damped = square + np.diag(damping * diagonal + 1e-9 * np.max(diagonal) + 1e-12)
-    return np.asarray(np.linalg.solve(damped, -push))
+    step = np.asarray(np.linalg.solve(damped, -push))
+    for _ in range(_HELD):
+        free = ~bodies.held(step)
+        if free.all():
+            break
+        step = np.zeros_like(step)
+        step[free] = np.linalg.solve(damped[np.ix_(free, free)], -push[free])
+    return step

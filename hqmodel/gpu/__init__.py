@@ -2,9 +2,22 @@
 
 from .assembly import ShaderError
 from .context import GpuError, offscreen
+from .legend import Legend, with_legend
+from .modes import MODES
 from .preview import Preview, Seen
 from .still import render
-from .studio import MODES
 from .tables import field_values, raycast
 
-__all__ = ["MODES", "GpuError", "Preview", "Seen", "ShaderError", "field_values", "offscreen", "raycast", "render"]
+__all__ = [
+    "MODES",
+    "GpuError",
+    "Legend",
+    "Preview",
+    "Seen",
+    "ShaderError",
+    "field_values",
+    "offscreen",
+    "raycast",
+    "render",
+    "with_legend",
+]

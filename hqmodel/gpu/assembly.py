@@ -9,10 +9,10 @@ import moderngl
 
 from hqmodel.resources import folder
 
-from . import layout
+from . import layout, modes
 
 # Files that are not on disk but come from what Python knows.
-GENERATED = {"layout.glsl": layout.glsl}
+GENERATED = {"layout.glsl": layout.glsl, "modes.glsl": modes.glsl}
 _INCLUDE = re.compile(r'^\s*#include\s+"([\w./-]+)"\s*$')
 # How Mesa, NVIDIA and Apple/Intel name a place: "3:12(7): ", "3(12) : ", "ERROR: 3:12: ".
 _PLACE = re.compile(r"(?<![\w.])(\d+)(?::(\d+)(?:\(\d+\))?|\((\d+)\))\s*:")

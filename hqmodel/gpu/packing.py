@@ -51,9 +51,15 @@ class Packed:
     uniforms: dict[str, float | int]
     defines: tuple[str, ...]  # what march.glsl is compiled for
 
-    def texels(self) -> NDArray[np.float32]:
-        """The texture's content, (lines, WIDTH, 4)."""
-        flat = np.concatenate([rows.view(np.float32).ravel() for rows in (self.terms, self.strips)])
+    @property
+    def length(self) -> int:
+        """How many texels the rows take."""
+        return len(self.terms) * TERM.texels + len(self.strips) * STRIP.texels
+
+    def texels(self, more: NDArray[np.float32] | None = None) -> NDArray[np.float32]:
+        """The texture's content, (lines, WIDTH, 4): the rows, and then `more` texels (n, 4)."""
+        parts = [rows.view(np.float32).ravel() for rows in (self.terms, self.strips)]
+        flat = np.concatenate([*parts, *([] if more is None else [more.ravel()])])
         lines = max(1, -(-flat.size // (4 * WIDTH)))
         whole = np.zeros(lines * WIDTH * 4, dtype=np.float32)
         whole[: flat.size] = flat
@@ -84,6 +90,8 @@ def pack(scene: Scene, terms: Terms, frame: Frame) -> Packed:
         if np.all(terms.outer >= 1) and np.all(terms.inner >= 1):
             defines.append("CONVEX")
             uniforms["least_exponent"] = float(np.min(terms.outer))
+    elif len(terms):
+        defines.append("CELLS")
     strips = _strip_rows(scene, terms, frame)
     return Packed(_term_rows(scene, terms, first_strip, strips), strips, uniforms, tuple(defines))
 

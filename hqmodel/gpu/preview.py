@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from math import sqrt
 from time import perf_counter
 from typing import NamedTuple
@@ -11,16 +12,19 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from hqmodel.field import Region, Terms, region
+from hqmodel.field import Plane, Region, Terms, region
 from hqmodel.model import Camera, Scene
 
 from .context import framebuffer_kept
 from .floor import floor_height
+from .legend import Legend
 from .memory import SceneMemory
-from .picture import Picture
+from .modes import MATERIALS, MODES
+from .picture import Picture, Rows
 from .screen import is_slow
-from .sight import camera_uniforms, depth_range, light_uniforms
-from .studio import MODES, Shot, Studio, tile_side
+from .shells import around, carving
+from .sight import camera_uniforms, cut_uniform, depth_range, light_uniforms
+from .studio import Shot, Studio, tile_side
 
 # Seconds that a draft should take: the next one's pixels are made coarser or finer for that.
 _DRAFT_SECONDS = 0.05
@@ -47,7 +51,8 @@ class Preview:
     def __init__(self, ctx: moderngl.Context) -> None:
         self.ctx = ctx
         self._slow = is_slow(ctx)
-        self._memory = SceneMemory(ctx)
+        self._memory, self._carving = SceneMemory(ctx), SceneMemory(ctx)
+        self._carved: Scene | None = None  # the scene whose carving shapes are in memory
         self._studio: Studio | None = None
         self._picture = Picture(ctx, (16, 16))
         self._coarse = 2 if self._slow else 1
@@ -59,7 +64,7 @@ class Preview:
     @property
     def texture(self) -> moderngl.Texture:
         """The picture as it stands."""
-        return self._picture.shown.texture
+        return self._picture.shown
 
     def show(self, scene: Scene) -> None:
         """From now on draw this scene."""
@@ -71,33 +76,54 @@ class Preview:
         if self._slow:
             self._coarse = max(self._coarse, min(self._memory.rows // 64, _COARSEST))
 
-    def draw(self, camera: Camera, size: tuple[int, int], mode: str = "clay", quick: bool = False, budget: float = 0.03) -> bool:
+    def draw(
+        self,
+        camera: Camera,
+        size: tuple[int, int],
+        mode: str = "clay",
+        quick: bool = False,
+        budget: float = 0.03,
+        cut: Plane | None = None,
+        lit_strip: tuple[int, int] | None = None,
+        ghosts: bool = False,
+    ) -> bool:
         """Bring the picture of that size (width, height) nearer to finished, for about `budget` seconds.
+
+        What lies in front of the plane `cut` is left out, and the cut shown filled. What `lit_strip` (shape, strip) shapes is
+        tinted, which starts nothing again. With `ghosts` the shapes that carve are shown as faint shells.
 
         True while a further call with the same arguments, but not `quick`, would refine it. `quick` is for while something is
         being dragged: a draft, the coarser the slower the machine. Raises ValueError for a mode that is none of `MODES`.
         """
         started = perf_counter()
         with framebuffer_kept(self.ctx):
-            shot = self._shot_of(camera, size, mode)
+            shot = replace(self._shot_of(camera, size, mode, cut), ghosts=self._ghosts() if ghosts else None)
             if shot != self._shot:
                 self._begin(shot)
+            self._picture.light(self._rows_of(lit_strip))
             if not quick:
                 self._refine(started + budget)
         return self._left
+
+    def legend(self) -> Legend:
+        """What the colours of the curvature mode mean in this scene."""
+        return Legend.of(self.region)
 
     def pixels(self) -> NDArray[np.uint8]:
         """The picture as it stands, (height, width, 4), top row first."""
         width, height = self.texture.size
         return np.frombuffer(self.texture.read(), dtype=np.uint8).reshape(height, width, 4)[::-1]
 
-    def pick(self, camera: Camera, size: tuple[int, int], pixel: tuple[int, int]) -> Seen | None:
-        """What lies under a pixel (from the top left) of a picture of that size; None beside the body."""
-        shot = self._shot_of(camera, size, MODES[0])
+    def pick(self, camera: Camera, size: tuple[int, int], pixel: tuple[int, int], cut: Plane | None = None) -> Seen | None:
+        """What lies under a pixel (from the top left) of a picture of that size; None beside the body.
+
+        A point of the cut belongs to no shape and strip.
+        """
+        shot = self._shot_of(camera, size, MODES[0], cut)
         with framebuffer_kept(self.ctx):
             seen = self._ready_studio().seen(self._memory, shot, (pixel[0], size[1] - 1 - pixel[1]))
         x, y, z, distance, _, _, _, kind, _, _, _, row = (float(value) for value in np.frombuffer(seen, dtype=np.float32))
-        if kind != 1.0:
+        if kind not in (1.0, 3.0):
             return None
         frame = self._memory.frame
         point = frame.centre + frame.scale * np.array([x, y, z])
@@ -108,11 +134,31 @@ class Preview:
         """Give back what the GPU holds for this preview; it can't be used after that."""
         self._picture.release()
         self._memory.release()
+        self._carving.release()
         if self._studio is not None:
             self._studio.release()
 
-    def _shot_of(self, camera: Camera, size: tuple[int, int], mode: str) -> Shot:
-        return shot_of(camera, size, mode, self.region, self._memory, self._floor)
+    def _shot_of(self, camera: Camera, size: tuple[int, int], mode: str, cut: Plane | None) -> Shot:
+        return shot_of(camera, size, mode, cut, self.region, self._memory, self._floor)
+
+    def _ghosts(self) -> SceneMemory | None:
+        """The scene's carving shapes as bodies of their own; None without any."""
+        shapes = carving(self.scene)
+        if shapes is None:
+            return None
+        if self._carved is not self.scene:
+            self._carving.write(shapes, Terms.of(shapes), around(self.region), self._memory.frame)
+            self._carved = self.scene
+        return self._carving
+
+    def _rows_of(self, strip: tuple[int, int] | None) -> Rows | None:
+        """The rows on the GPU of a strip, one for each of its shape's mirror images."""
+        if strip is None:
+            return None
+        rows = np.flatnonzero(np.all(self._terms.strip_source == strip, axis=1))
+        if not len(rows):
+            return None
+        return int(rows[0]), int(rows[1] - rows[0]) if len(rows) > 1 else 1, len(rows)
 
     def _begin(self, shot: Shot) -> None:
         """Another picture: a draft of it at once, and all the refining ahead."""
@@ -139,7 +185,7 @@ class Preview:
 
     def samples(self, mode: str) -> int:
         """How many samples a pixel a finished picture of that mode has."""
-        return _LIT_SAMPLES if mode == "clay" and not self._slow else _SAMPLES
+        return _LIT_SAMPLES if mode in MATERIALS and not self._slow else _SAMPLES
 
     def _ready_studio(self) -> Studio:
         side = tile_side(self._memory.rows, self._slow)
@@ -150,15 +196,19 @@ class Preview:
         return self._studio
 
 
-def shot_of(camera: Camera, size: tuple[int, int], mode: str, where: Region, memory: SceneMemory, floor: float) -> Shot:
+def shot_of(
+    camera: Camera, size: tuple[int, int], mode: str, cut: Plane | None, where: Region, memory: SceneMemory, floor: float
+) -> Shot:
     """All that a picture from this camera needs to know; the floor's height in the unit frame."""
     if mode not in MODES:
         raise ValueError(f"mode: expected one of {', '.join(MODES)}, got {mode!r}")
     uniforms = {
         **camera_uniforms(camera, size, memory.frame),
         **light_uniforms(camera),
+        "cut": cut_uniform(cut, memory.frame),
         "depth_range": depth_range(camera, where, memory.frame),
-        "ground": int(mode == "clay"),
+        "ground": int(mode in MATERIALS),
         "ground_z": floor,
+        **(Legend.of(where).uniforms(memory.frame.scale) if mode == "curvature" else {}),
     }
     return Shot(mode, size, uniforms)

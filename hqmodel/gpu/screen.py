@@ -22,6 +22,8 @@ class Target:
     def __init__(self, ctx: moderngl.Context, size: tuple[int, int], count: int = 1, dtype: str = "f4") -> None:
         self.size = size
         self.textures = [ctx.texture(size, 4, dtype=dtype) for _ in range(count)]
+        for texture in self.textures:
+            texture.repeat_x = texture.repeat_y = False
         self.framebuffer = ctx.framebuffer(self.textures)
 
     @property

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hqmodel.field import Region
+from hqmodel.field import Plane, Region
 from hqmodel.model import Camera
 
 from .packing import Frame
@@ -43,6 +43,15 @@ def light_uniforms(camera: Camera) -> dict[str, Any]:
     stand = np.stack([right, away, [0.0, 0.0, 1.0]])
     names = {"key_direction": KEY, "fill_direction": FILL, "rim_direction": RIM}
     return {name: tuple(_unit(np.array(parts) @ stand)) for name, parts in names.items()}
+
+
+def cut_uniform(cut: Plane | None, frame: Frame) -> tuple[float, float, float, float]:
+    """The half-space that is drawn, behind the plane as seen from the side that its normal points to, in the unit frame."""
+    if cut is None:
+        return 0.0, 0.0, 0.0, 1.0
+    normal = cut.axes[2]
+    x, y, z = (float(part) for part in normal)
+    return x, y, z, float(normal @ frame.local(cut.origin))
 
 
 def depth_range(camera: Camera, region: Region, frame: Frame) -> tuple[float, float]:

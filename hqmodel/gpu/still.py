@@ -10,7 +10,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from hqmodel.field import Terms, region
+from hqmodel.field import Plane, Terms, region
 from hqmodel.model import Camera, Scene
 
 from .context import framebuffer_kept, offscreen
@@ -32,13 +32,15 @@ def render(
     camera: Camera | None = None,
     size: tuple[int, int] = (1024, 768),
     mode: str = "clay",
+    cut: Plane | None = None,
     samples: int = SAMPLES,
     ctx: moderngl.Context | None = None,
     progress: Callable[[float, str], None] | None = None,
 ) -> NDArray[np.uint8]:
     """The scene as the preview shows it, (height, width, 4) of sRGB, opaque, top row first.
 
-    Without a camera the body is framed from the standard view. `progress` is told the share done (0..1) and what is being done;
+    Without a camera the body is framed from the standard view. What lies in front of the plane `cut` is left out, and the cut is
+    shown filled. `progress` is told the share done (0..1) and what is being done;
     whatever it raises ends the work. Raises GpuError without OpenGL, ValueError for a mode that is
     none of `MODES`.
     """
@@ -49,7 +51,7 @@ def render(
         camera = Camera().framing(where.low, where.high, size[0] / size[1])
     memory = SceneMemory(own)
     memory.write(scene, terms, where)
-    shot = shot_of(camera, size, mode, where, memory, floor_height(own, memory, where))
+    shot = shot_of(camera, size, mode, cut, where, memory, floor_height(own, memory, where))
     pixels = _drawn(own, memory, shot, samples, progress or (lambda share, doing: None))
     memory.release()
     if ctx is None:
@@ -72,7 +74,7 @@ def _drawn(
             for step, _ in enumerate(picture.refined(studio, memory, part, samples)):
                 ctx.finish()
                 tell((number + min(1.0, (step + 1) / steps)) / len(parts), "Drawing")
-            drawn = np.frombuffer(picture.shown.texture.read(), dtype=np.uint8)
+            drawn = np.frombuffer(picture.shown.read(), dtype=np.uint8)
         result[bottom : bottom + height, left : left + width] = drawn.reshape(height, width, 4)
         picture.release()
     studio.release()

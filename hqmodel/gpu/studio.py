@@ -9,11 +9,11 @@ from typing import Any
 import moderngl
 
 from .memory import SceneMemory
+from .modes import MATERIALS, MODES
 from .screen import Rectangle, Target, shared_pass
 from .sight import KEY_RADIUS
 from .tracing import trace
 
-MODES = ("clay", "normals", "curvature", "strips", "depth")
 # Samples of light for each look through the camera.
 _LIGHTS = 2
 # Steps of the two-dimensional golden ratio (Roberts' R2 sequence): even at any count.
@@ -28,11 +28,17 @@ class Shot:
     size: tuple[int, int]
     uniforms: dict[str, Any] = field(repr=False)
     origin: tuple[int, int] = (0, 0)  # the pixel at the lower left of what is drawn of it
+    ghosts: SceneMemory | None = field(default=None, repr=False)  # what is shown as faint shells
 
     @property
     def lit(self) -> bool:
         """Whether this mode shows light and shadow."""
-        return self.mode == "clay"
+        return self.mode in MATERIALS
+
+    @property
+    def shadowed(self) -> bool:
+        """Whether the key light throws shadows in it."""
+        return self.lit and self.mode != "studio"
 
 
 class Studio:
@@ -40,7 +46,7 @@ class Studio:
 
     def __init__(self, ctx: moderngl.Context, side: int) -> None:
         self.ctx, self.side = ctx, side
-        self._surface = Target(ctx, (side, side), count=3)
+        self._surface, self._shells = (Target(ctx, (side, side), count=3) for _ in range(2))
         self._states = [Target(ctx, (side, side)) for _ in range(4)]
 
     def draw(self, memory: SceneMemory, shot: Shot, tile: Rectangle, target: Target, samples: Sequence[int]) -> None:
@@ -53,6 +59,8 @@ class Studio:
         uniforms = {
             **shot.uniforms,
             "mode": MODES.index(shot.mode),
+            "lit": int(shot.lit),
+            "shells": int(shot.ghosts is not None),
             "picture_size": shot.size,
             "tile_origin": (tile[0] + shot.origin[0], tile[1] + shot.origin[1]),
             "target_origin": tile[:2],
@@ -64,28 +72,32 @@ class Studio:
             if sample % _LIGHTS == 0 or sample == samples[0]:
                 view = sample // _LIGHTS
                 uniforms["jitter"] = tuple((0.5 + view * step) % 1.0 for step in _STEP)
-                self._look(memory, here, uniforms)
+                self._look(memory, here, uniforms, self._surface)
+                if shot.ghosts is not None:
+                    self._look(shot.ghosts, here, {**uniforms, "ground": 0}, self._shells)
             inputs = self._surface_inputs()
-            if shot.lit:
+            if shot.ghosts is not None:
+                inputs["shell_position"], inputs["shell_normal"] = self._shells.textures[:2]
+            if shot.shadowed:
                 inputs["key_state"] = self._trace("key", 1, memory, here, uniforms)
             if uniforms["sky_rays"]:
                 inputs["sky_state"] = self._trace("sky", 2, memory, here, uniforms)
             shared_pass(self.ctx, "shade.frag").draw(target, tile, uniforms, inputs, memory, adding=sample > 0)
 
-    def _look(self, memory: SceneMemory, here: Rectangle, uniforms: dict[str, Any]) -> None:
+    def _look(self, memory: SceneMemory, here: Rectangle, uniforms: dict[str, Any], surface: Target) -> None:
         """Find the surfaces that the camera sees."""
         state = self._trace("camera", 0, memory, here, uniforms)
-        defines = [name for name in memory.defines if name in ("GROUPS", "HYPERBOLIC")]
+        defines = [name for name in memory.defines if name in ("GROUPS", "HYPERBOLIC", "CELLS")]
         if uniforms["mode"] == MODES.index("curvature"):
             defines.append("CURVATURE")
-        shared_pass(self.ctx, "surface.frag", tuple(defines)).draw(self._surface, here, uniforms, {"state": state}, memory)
+        shared_pass(self.ctx, "surface.frag", tuple(defines)).draw(surface, here, uniforms, {"state": state}, memory)
 
     def seen(self, memory: SceneMemory, shot: Shot, pixel: tuple[int, int]) -> bytes:
         """Position, distance, normal, kind, colour and strip's row (surface.frag) at one pixel, counted from the lower left."""
         uniforms = {**shot.uniforms, "mode": MODES.index(shot.mode), "picture_size": shot.size, "tile_origin": pixel}
         uniforms["jitter"] = (0.5, 0.5)
         here = (0, 0, 1, 1)
-        self._look(memory, here, uniforms)
+        self._look(memory, here, uniforms, self._surface)
         framebuffer = self._surface.framebuffer
         return b"".join(framebuffer.read(here, 4, attachment, dtype="f4") for attachment in range(3))
 
@@ -100,7 +112,7 @@ class Studio:
         return self._states[place].texture
 
     def release(self) -> None:
-        for target in (self._surface, *self._states):
+        for target in (self._surface, self._shells, *self._states):
             target.release()
 
 

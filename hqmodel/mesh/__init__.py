@@ -3,8 +3,9 @@
 from .build import FEWEST_FACES, MAX_RESOLUTION, Progress, polygonize
 from .formats import write
 from .measure import report
-from .mesh import Mesh, MeshError
+from .mesh import Mesh, MeshError, Quads
 from .placing import FORMATS, METRES, SIZES, UP_AXIS, fitted, sized
+from .radial import radial_quads
 
 __all__ = [
     "FEWEST_FACES",
@@ -16,8 +17,10 @@ __all__ = [
     "Mesh",
     "MeshError",
     "Progress",
+    "Quads",
     "fitted",
     "polygonize",
+    "radial_quads",
     "report",
     "sized",
     "write",

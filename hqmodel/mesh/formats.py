@@ -62,7 +62,7 @@ def _must_fit(mesh: Mesh, suffix: str) -> None:
 
 
 def _obj(mesh: Mesh, stream: BinaryIO, name: str) -> None:
-    """Colours as the usual extension of ``v``: sRGB in 0..1 after the position."""
+    """Colours as the usual extension of ``v``: sRGB in 0..1 after the position; quads with ``vt`` where the mesh has them."""
     stream.write(f"# hqmodel\no {name.replace(' ', '_')}\n".encode())
     point = _fixed(mesh.vertices)
     if mesh.colors is None:
@@ -72,11 +72,13 @@ def _obj(mesh: Mesh, stream: BinaryIO, name: str) -> None:
         _lines(stream, f"v {point} {point} {point} %.4g %.4g %.4g\n", np.column_stack([mesh.vertices, colors]))
     if mesh.normals is not None:
         _lines(stream, "vn %.4f %.4f %.4f\n", mesh.normals)
-    corners = mesh.faces + 1
-    if mesh.normals is None:
-        _lines(stream, "f %d %d %d\n", corners)
-    else:
-        _lines(stream, "f %d//%d %d//%d %d//%d\n", np.repeat(corners, 2, axis=1))
+    faces, uv = mesh.faces, None
+    if mesh.quads is not None:
+        faces, uv = mesh.quads.corners, mesh.quads.uv_corners
+        _lines(stream, "vt %.6f %.6f\n", mesh.quads.uv)
+    corners = [indices for indices in (faces, uv, None if mesh.normals is None else faces) if indices is not None]
+    corner = f" %d{'' if uv is None else '/%d'}" if mesh.normals is None else f" %d/{'' if uv is None else '%d'}/%d"
+    _lines(stream, f"f{corner * faces.shape[1]}\n", np.stack(corners, axis=2).reshape(len(faces), -1) + 1)
 
 
 def _ply(mesh: Mesh, stream: BinaryIO, name: str) -> None:

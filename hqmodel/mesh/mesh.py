@@ -17,11 +17,23 @@ class MeshError(Exception):
 
 
 @dataclass(frozen=True, eq=False)
+class Quads:
+    """A mesh's faces in fours: its vertices at the `corners` (Q, 4), and their places `uv` (U, 2) in the texture's unit square at
+    the `uv_corners` (Q, 4).
+    """
+
+    corners: Triangles
+    uv: Array
+    uv_corners: Triangles
+
+
+@dataclass(frozen=True, eq=False)
 class Mesh:
     """Triangles in counter-clockwise order seen from outside.
 
     `vertices` (V, 3) and `faces` (F, 3); `normals` (V, 3) are unit and outward, `colors` (V, 3) sRGB in 0..255.
-    `surface_error` is the largest measured distance of a face's middle from the true surface, in the mesh's own unit.
+    `surface_error` is the largest measured distance of a face's middle from the true surface, in the mesh's own unit. Where the
+    mesh has `quads`, the triangles are their halves.
     """
 
     vertices: Array
@@ -29,6 +41,7 @@ class Mesh:
     normals: NDArray[np.float32] | None = None
     colors: NDArray[np.uint8] | None = None
     surface_error: float | None = None
+    quads: Quads | None = None
 
 
 def marks(marked: NDArray[np.bool_], faces: Triangles) -> NDArray[np.uint8]:

@@ -1,6 +1,6 @@
 """What a scene is: frozen, validated values and the table of their numeric fields. Imports nothing of ours."""
 
-from .camera import VIEWS, Camera
+from .camera import VIEWS, Camera, remembered
 from .faults import faults
 from .fields import FIELDS, MAX_SHAPES, MAX_STRIPS, Number, pattern, place, shown
 from .scene import FORMAT, VERSION, Axis, Group, Scene, Shape, Strip, Transform, Value, Vector, unused_name
@@ -25,6 +25,7 @@ __all__ = [
     "faults",
     "pattern",
     "place",
+    "remembered",
     "shown",
     "unused_name",
 ]

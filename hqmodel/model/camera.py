@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from math import cos, exp, radians, sin, tan
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, replace
+from math import cos, exp, isfinite, radians, sin, tan
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -135,3 +136,24 @@ class Camera:
 def _triple(values: Array) -> tuple[float, float, float]:
     x, y, z = (float(value) for value in values)
     return x, y, z
+
+
+def remembered(stored: object) -> Camera | None:
+    """The camera that a preset keeps in its `view`, what is left out being as usual; None where it can't be used."""
+    if not isinstance(stored, Mapping):
+        return None
+    defaults = asdict(Camera())
+    known = {key: stored[key] for key in defaults if key in stored}
+    target = known.get("target", defaults["target"])
+    numbers = [known.get(key, defaults[key]) for key in ("distance", "azimuth", "elevation", "field_of_view")]
+    if not isinstance(target, (list, tuple)) or len(target) != 3 or not all(map(_is_number, [*target, *numbers])):
+        return None
+    distance, azimuth, elevation, angle = map(float, numbers)
+    if not (distance > 0 and abs(elevation) <= 90 and 0 < angle < 180):
+        return None
+    x, y, z = map(float, target)
+    return Camera((x, y, z), distance, azimuth, elevation, angle, known.get("orthographic") is True)
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and isfinite(value)

@@ -11,10 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hqmodel.field import Region, Terms, box_bounds, log_ratio, near_linear, near_linear_gradient
+from hqmodel.field import Plane, Region, Terms, box_bounds, log_ratio, near_linear, near_linear_gradient
 
-from .plane import Array, Plane
-
+Array = NDArray[np.float64]
 Cells = NDArray[np.int64]
 
 # Squares along the longer side: what is always sampled, and the finest that hidden parts are looked for with.

@@ -11,8 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .contour import Slice
-from .plane import Array
+from .contour import Array, Slice
 
 # A turn beyond which two points closer than a few tolerances are a corner, and one that no single piece makes.
 _CORNER, _LONGEST_TURN, _STRAIGHT = np.cos(np.radians([20, 100, 0.5]))

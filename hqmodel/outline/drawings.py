@@ -7,8 +7,8 @@ from typing import BinaryIO
 
 import numpy as np
 
+from .contour import Array
 from .outline import Outline
-from .plane import Array
 
 # What the header of a DXF file calls a unit ($INSUNITS).
 _DXF_UNITS = {"mm": 4, "cm": 5, "m": 6, "in": 1, None: 0}

@@ -6,12 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hqmodel.field import Terms, region
+from hqmodel.field import Plane, Terms, region
 from hqmodel.model import Scene
 
-from .contour import loops, slice_of
+from .contour import Array, loops, slice_of
 from .curves import arc_lengths, enclosed, fitted, flattened
-from .plane import Array, Plane
 
 # How near the curves are to the true outline, as a share of its longer side, unless asked otherwise.
 PRECISE = 2e-5

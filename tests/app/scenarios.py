@@ -335,7 +335,7 @@ def the_viewport(hands: Hands) -> None:
     orbited = session.view.camera
     assert orbited.azimuth != start.azimuth
     assert orbited.target == start.target
-    ctx.mouse_move("//Viewport/view")
+    ctx.mouse_move_to_pos((270, 480))  # beside the body
     ctx.mouse_drag_with_delta((-40, 10), imgui.MouseButton_.left)
     hands.settle()
     assert session.view.camera.azimuth != orbited.azimuth
@@ -358,7 +358,7 @@ def the_viewport(hands: Hands) -> None:
     ctx.mouse_click()
     hands.settle()
     assert session.selection.active is not None
-    ctx.mouse_move_to_pos((270, 40))
+    ctx.mouse_move_to_pos((270, 480))
     ctx.mouse_click()
     hands.settle()
     assert session.selection.active is None
@@ -384,7 +384,7 @@ def a_fault_in_a_panel(hands: Hands) -> None:
     assert isinstance(problem, Problem)
     assert problem.lines[0] == "Scene: ZeroDivisionError: a fault of ours"
     copy = Path(problem.lines[-1].removeprefix("To be sure, a copy was saved as "))
-    assert files.load(copy) == work
+    assert files.load(copy).changed(view={}) == work
     hands.click("//Something went wrong/OK")
     assert session.scene is work
     hands.keys(CTRL | Key.z)
@@ -398,7 +398,7 @@ def a_fault_in_a_panel(hands: Hands) -> None:
 def panels_and_themes(hands: Hands) -> None:
     """Panels can be closed and come back; the light theme is kept for the next time."""
     session = hands.session
-    assert session.hidden_panels == {"Presets"}
+    assert session.hidden_panels == {"Presets", "Timeline"}
     hands.menu("View/Panels/###panel Presets")
     hands.settle(5)
     assert shown(hands, "Presets")
@@ -409,10 +409,10 @@ def panels_and_themes(hands: Hands) -> None:
     assert files.Settings.read().preferences["theme"] == "light"
     hands.ctx.window_close("//Scene")
     hands.settle(3)
-    assert session.hidden_panels == {"Presets", "Scene"}
+    assert session.hidden_panels == {"Presets", "Scene", "Timeline"}
     hands.menu("View/Panels/###reset layout")
     hands.settle(5)
-    assert session.hidden_panels == set()
+    assert session.hidden_panels == {"Timeline"}
     assert shown(hands, "Scene")
     assert shown(hands, "Presets")
     for keys, dialog in ((Key.f1, "Shortcuts"), (None, "About hqmodel")):
@@ -432,7 +432,7 @@ def shown(hands: Hands, panel: str) -> bool:
 def a_built_in_preset(hands: Hands) -> None:
     """A click in the Presets panel opens it; it has a picture; saving asks for a file."""
     session = hands.session
-    preset = files.builtin()[0]
+    preset = next(preset for preset in files.builtin() if preset.collection == "starters")
     hands.menu("View/Panels/###panel Presets")
     hands.settle(5)
     hands.ctx.window_focus("//Presets")
@@ -442,4 +442,12 @@ def a_built_in_preset(hands: Hands) -> None:
     hands.type_value("//Presets/##search", "no preset is called this")
     assert not hands.ctx.item_exists(f"//Presets/**/##{preset.name}")
     hands.type_value("//Presets/##search", preset.title)
-    hands.wait(lambda: hands.window.thumbnails.texture(preset) is not None)
+    hands.wait(lambda: hands.window.thumbnails.texture(preset.path) is not None)
+    assert list((hands.folder / "cache").rglob("*.png")), "it is there at the next start"
+    hands.ctx.mouse_move(f"//Presets/**/##{preset.name}")
+    hands.settle()
+    hands.click(f"//Presets/**/###star {preset.name}")
+    assert files.Settings.read().preferences["favourites"] == [str(preset.path)]
+    hands.settle()
+    hands.click("//Presets/**/Favourites/###star " + preset.name)
+    assert files.Settings.read().preferences["favourites"] == []

@@ -139,9 +139,9 @@ def test_an_unknown_theme_in_the_settings_is_the_first_one() -> None:
 
 def test_panels_hide_and_come_back(session: Session) -> None:
     session.apply([Do("panel Scene"), Do("panel Outliner")])
-    assert session.hidden_panels == {"Scene", "Outliner"}
+    assert session.hidden_panels == {"Scene", "Outliner", "Timeline"}
     session.apply([Do("panel Scene"), Do("reset layout")])
-    assert session.hidden_panels == set()
+    assert session.hidden_panels == {"Timeline"}
     assert session.layout_wanted
 
 

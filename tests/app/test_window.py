@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import os
 import re
-import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
-from typing import TypeVar
 
 import pytest
 
@@ -19,17 +15,13 @@ from hqmodel.app.view import restored
 from hqmodel.edit import new_scene
 from hqmodel.model import Camera
 
-T = TypeVar("T")
-ROOT = Path(__file__).parents[2]
-SCENARIOS = re.findall(r"^def (\w+)\(hands: Hands\) -> None:", (Path(__file__).parent / "scenarios.py").read_text(), re.MULTILINE)
-SECONDS = 240
+from .outside import ROOT, SECONDS, Outside, surroundings
 
-
-def surroundings(display: str, folder: Path) -> dict[str, str]:
-    """The window's environment: its settings and all that it writes stay in the test's folder, Mesa draws."""
-    folders = {f"XDG_{name}_HOME": str(folder / name.lower()) for name in ("CONFIG", "STATE", "CACHE", "DATA")}
-    paths = os.pathsep.join([str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])])
-    return {**os.environ, **folders, "HOME": str(folder), "DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1", "PYTHONPATH": paths}
+SCENARIOS = [
+    f"{module.stem}:{name}"
+    for module in sorted(Path(__file__).parent.glob("scenarios*.py"))
+    for name in re.findall(r"^def (\w+)\(hands: Hands\) -> None:", module.read_text(), re.MULTILINE)
+]
 
 
 def test_there_are_scenarios() -> None:
@@ -38,7 +30,7 @@ def test_there_are_scenarios() -> None:
 
 @pytest.mark.parametrize("name", SCENARIOS)
 def test_scenario(name: str, display: str, tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "tests.app.drive", f"tests.app.scenarios:{name}", str(tmp_path)]
+    command = [sys.executable, "-m", "tests.app.drive", f"tests.app.{name}", str(tmp_path)]
     environment = surroundings(display, tmp_path)
     ended = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=SECONDS)
     assert ended.returncode == 0, ended.stdout + ended.stderr
@@ -91,39 +83,7 @@ def test_without_a_display_it_says_so_in_one_sentence(tmp_path: Path) -> None:
     assert "hqmodel export" in ended.stdout
 
 
-class Outside:
-    """The window as somebody at the machine has it: a process, a title, a mouse and a keyboard."""
-
-    def __init__(self, display: str, folder: Path, preset: Path) -> None:
-        self.environment = surroundings(display, folder)
-        code = f"from pathlib import Path; from hqmodel.app import run; run(Path({str(preset)!r}))"
-        self.process = subprocess.Popen([sys.executable, "-c", code], env=self.environment, cwd=folder)
-        self.window = self.until(lambda: self.tool("search", "--onlyvisible", "--name", " - hqmodel$")).split()[0]
-        self.tool("windowmove", self.window, "0", "0")
-        self.tool("windowfocus", "--sync", self.window)
-
-    def tool(self, *arguments: str) -> str:
-        """What xdotool says; empty where it finds nothing."""
-        command = ["xdotool", *arguments]
-        return subprocess.run(command, env=self.environment, capture_output=True, text=True, timeout=SECONDS).stdout.strip()
-
-    def title(self) -> str:
-        return self.tool("getwindowname", self.window)
-
-    def until(self, condition: Callable[[], T]) -> T:
-        """What the condition gives as soon as it gives something."""
-        deadline = time.monotonic() + SECONDS
-        while time.monotonic() < deadline:
-            assert self.process.poll() is None, "the window has closed"
-            found = condition()
-            if found:
-                return found
-            time.sleep(0.1)
-        raise AssertionError(f"waited {SECONDS} seconds in vain")
-
-
 def test_from_outside_a_drag_turns_the_view_and_keys_work(display: str, tmp_path: Path) -> None:
-    assert shutil.which("xdotool"), "this test needs xdotool: install it (on Debian and Ubuntu: xdotool)"
     preset = tmp_path / "outside.json"
     scene = new_scene()
     files.save(scene, preset)
@@ -134,9 +94,9 @@ def test_from_outside_a_drag_turns_the_view_and_keys_work(display: str, tmp_path
         window.until(lambda: window.title() == "outside* - hqmodel")
         window.tool("key", "ctrl+z")
         window.until(lambda: window.title() == "outside - hqmodel")
-        window.tool("mousemove", "600", "400", "mousedown", "1")
+        window.tool("mousemove", "600", "600", "mousedown", "1")  # beside the body
         for x in range(600, 700, 20):
-            window.tool("mousemove", str(x), "400")
+            window.tool("mousemove", str(x), "600")
             time.sleep(0.1)
         window.tool("mouseup", "1")
         window.tool("key", "ctrl+s")
@@ -149,5 +109,4 @@ def test_from_outside_a_drag_turns_the_view_and_keys_work(display: str, tmp_path
         window.tool("key", "ctrl+q")
         assert window.process.wait(SECONDS) == 0
     finally:
-        window.process.kill()
-        window.process.wait()
+        window.end()

@@ -59,6 +59,28 @@ def test_a_mesh_is_reduced(hqmodel: Command) -> None:
     assert not Path("b.stl").exists()
 
 
+def test_a_radial_grid_of_quads(hqmodel: Command) -> None:
+    ended = hqmodel("export", "ball.json", "-o", "a.obj", "-o", "a.glb", "--method", "radial", "--resolution", 64, "--json")
+    assert (ended.status, ended.err) == (0, "")
+    result = json.loads(ended.out)
+    assert set(result) >= REQUIRED
+    assert (result["quads"], result["faces"], result["watertight"]) == (6 * 16**2, 12 * 16**2, True)
+    faces = [line for line in Path("a.obj").read_text().splitlines() if line.startswith("f ")]
+    assert {len(face.split()) for face in faces} == {5}
+    assert len(faces) == result["quads"]
+    assert len(read("a.glb").faces) == result["faces"]
+
+
+def test_what_has_no_radial_grid_is_told(hqmodel: Command) -> None:
+    ended = hqmodel("export", "linked-rings", "-o", "a.obj", "--method", "radial")
+    assert (ended.status, ended.out) == (1, "")
+    assert ended.err.startswith("linked-rings: expected a body all seen from one point inside, got one turned away from (")
+    assert ended.err.count("\n") == 1
+    ended = hqmodel("export", "ball.json", "-o", "a.obj", "--method", "radial", "--target-faces", 100)
+    assert ended == (2, "", "--target-faces: expected --method cubes with it, got radial\n")
+    assert files() == {"ball.json"}
+
+
 def test_the_same_options_give_the_same_bytes(hqmodel: Command) -> None:
     for name in ("a.obj", "b.obj"):
         assert hqmodel("export", "ball.json", "-o", name, "--resolution", 16).status == 0

@@ -9,6 +9,8 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
+from hqmodel.gpu import MODES
+
 from .conftest import Command, files
 
 
@@ -52,7 +54,7 @@ def test_each_mode_is_another_picture(hqmodel: Command) -> None:
         (["-o", "a.png", "--size", "0x10"], "--size: expected WxH in pixels, each from 1 to 8192, got '0x10'"),
         (["-o", "a.png", "--size", "10x9999"], "--size: expected WxH in pixels, each from 1 to 8192, got '10x9999'"),
         (["-o", "a.png", "--view", "up"], "--view: expected front, right, back, left, top, bottom, iso, got 'up'"),
-        (["-o", "a.png", "--mode", "wax"], "--mode: expected clay, normals, curvature, strips, depth, got 'wax'"),
+        (["-o", "a.png", "--mode", "wax"], f"--mode: expected {', '.join(MODES)}, got 'wax'"),
         (["-o", "a.png", "--elevation", "91"], "--elevation: expected degrees from -90 to 90, got 91.0"),
         (["-o", "a.png", "--azimuth", "nan"], "--azimuth: expected degrees from -360 to 360, got nan"),
     ],
@@ -60,3 +62,19 @@ def test_each_mode_is_another_picture(hqmodel: Command) -> None:
 def test_wrong_options_are_told(hqmodel: Command, arguments: list[str], message: str) -> None:
     assert hqmodel("render", "ball.json", *arguments) == (2, "", message + "\n")
     assert files() == {"ball.json"}
+
+
+def test_a_cut_opens_the_body(hqmodel: Command) -> None:
+    """From above, a ball cut at its middle is a disk that faces up, one cut off whole is gone."""
+    for name, plane in (("half", "z=0"), ("none", "0,0,2=-3")):
+        arguments = ["--view", "top", "--mode", "normals", "--size", "40x40", "--cut", plane]
+        assert hqmodel("render", "ball.json", "-o", f"{name}.png", *arguments).status == 0
+    half, none = picture("half.png"), picture("none.png")
+    assert np.ptp(half[16:24, 16:24].reshape(-1, 3), axis=0).max() <= 2
+    assert half[20, 20, 2] > half[20, 20, 0] + 80
+    assert np.ptp(none.reshape(-1, 3), axis=0).max() <= 2
+
+
+def test_a_cut_that_is_none_is_told(hqmodel: Command) -> None:
+    expected = "--cut: expected a plane such as z=0.2 or 1,0,-1=0.5, got 'w=1'\n"
+    assert hqmodel("render", "ball.json", "-o", "a.png", "--cut", "w=1") == (2, "", expected)

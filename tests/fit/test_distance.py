@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from hqmodel.field import Terms, log_ratio
 from hqmodel.fit.bodies import Bodies
@@ -27,6 +28,15 @@ def blend(mirrored: bool) -> Bodies:
     return Bodies(normal, offset, gamma, owner, np.array([2.0, 3.0, 2.5]), signs, mirror)
 
 
+def framed() -> Bodies:
+    """Two bodies at right angles, the second a pair and with a fourth strip askew."""
+    turn = Rotation.from_rotvec([0.3, -0.8, 0.4]).as_matrix()
+    normal = np.concatenate([AXES / [[0.3], [0.2], [0.25]], turn / [[0.15], [0.2], [0.3]], [[2.0, -1.0, 2.5]]])
+    owner, mirrored = np.repeat([0, 1], [3, 4]), np.array([False, True])
+    gamma, offset = np.linspace(2, 8, 7), np.array([0.1, 0, 0.2, -1.0, 0.4, 0.3, -0.2])
+    return Bodies(normal, offset, gamma, owner, np.array([3.0, 4.0]), np.ones(2), mirrored, np.ones((2, 3)))
+
+
 def on_surface(bodies: Bodies, count: int = 2000) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
     points = np.random.default_rng(0).normal(size=(count, 3)) * 0.3
     for _ in range(60):
@@ -46,7 +56,7 @@ def test_a_sharp_box_is_as_far_beyond_its_edges_as_they_are() -> None:
     assert np.allclose(distances(lone(0.3, 200.0), points), expected, atol=5e-3)
 
 
-@pytest.mark.parametrize("bodies", [lone(0.3, 3.0), blend(mirrored=False), blend(mirrored=True)])
+@pytest.mark.parametrize("bodies", [lone(0.3, 3.0), blend(mirrored=False), blend(mirrored=True), framed()])
 def test_the_derivatives_are_those_of_the_distance(bodies: Bodies) -> None:
     points = on_surface(bodies)
     assert len(points) > 1000

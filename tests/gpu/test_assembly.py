@@ -17,11 +17,12 @@ from hqmodel.resources import folder
 # What packing.py can ask for, from the barest to all.
 SCENES = (
     (),
+    ("CELLS",),
     ("LONE",),
     ("LONE", "CONVEX"),
     ("GROUPS", "LONE", "CONVEX"),
     ("GROUPS", "LONE"),
-    ("GROUPS", "HYPERBOLIC", "CARVING"),
+    ("GROUPS", "HYPERBOLIC", "CARVING", "CELLS"),
 )
 SHADERS = sorted(path.name for path in folder("shaders").iterdir())
 
@@ -33,7 +34,7 @@ def test_tracing_compiles(ctx: moderngl.Context, kind: str, defines: tuple[str, 
 
 
 @pytest.mark.parametrize("name", [name for name in SHADERS if name.endswith(".frag") and name != "trace.frag"])
-@pytest.mark.parametrize("defines", [("CURVATURE",), ("GROUPS", "HYPERBOLIC", "CURVATURE", "DRAFT")], ids="-".join)
+@pytest.mark.parametrize("defines", [("CURVATURE",), ("GROUPS", "HYPERBOLIC", "CELLS", "CURVATURE", "DRAFT")], ids="-".join)
 def test_the_others_compile(ctx: moderngl.Context, name: str, defines: tuple[str, ...]) -> None:
     program(ctx, name, defines).release()
 

@@ -147,3 +147,32 @@ def test_many_shapes_take_several_draws(ctx: moderngl.Context, count: int, mirro
     hits, grazing = _compared(ctx, scene, 64, 3)
     assert hits > 10
     assert grazing == 0
+
+
+def _crowd(seed: int) -> Scene:
+    """64 boxes, balls, cusps and plates at exponents from 0.3 to 400; every fifth carves, every tenth as a hyperboloid."""
+    rng = np.random.default_rng(seed)
+    shapes = []
+    for number in range(64):
+        carves, tapers = number % 5 == 4, number % 10 == 9
+        widths = (1.0, 1.0, float(rng.choice([1.0, 0.02])) if not carves else 1.0)
+        gammas = [2.0] * 3 if tapers else [float(rng.choice([0.3, 0.7, 1.0, 2.0, 8.0, 60.0, 400.0]))] * 3
+        signs = (1, 1, -1 if tapers else 1)
+        strips = (Strip(normal=n, gamma=g, half_width=w, sign=s) for n, g, w, s in zip(BLOCK, gammas, widths, signs, strict=True))
+        x, y, z, w = (float(part) for part in rng.normal(size=4))
+        length = float(np.linalg.norm([x, y, z, w]))
+        size = float(rng.uniform(0.1, 0.2 if tapers else 0.6))
+        transform = Transform(
+            translation=tuple(rng.uniform(-1.5, 1.5, 3)),
+            rotation=(x / length, y / length, z / length, w / length),
+            scale=(size, size, size),
+        )
+        shapes.append(Shape(strips=tuple(strips), coefficient=-2.0 if carves else 1.0, hardness=12.0, transform=transform))
+    return Scene(shapes=tuple(shapes))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_crowd_with_holes(ctx: moderngl.Context, seed: int) -> None:
+    hits, grazing = _compared(ctx, _crowd(seed), 120, seed)
+    assert hits > 10
+    assert grazing <= 2

@@ -11,7 +11,9 @@ import pytest
 from numpy.typing import NDArray
 
 from hqmodel.gpu import MODES, render
+from hqmodel.gpu.modes import MATERIALS
 from hqmodel.gpu.packing import tint
+from hqmodel.gpu.sight import light_uniforms
 from hqmodel.model import VIEWS, Camera, Scene, Shape, Strip, Transform
 
 from .scenes import ball, solid
@@ -58,7 +60,7 @@ def test_modes_differ(ctx: moderngl.Context) -> None:
 
 
 def test_another_mode_is_refused(ctx: moderngl.Context) -> None:
-    with pytest.raises(ValueError, match="mode: expected one of clay, normals, curvature, strips, depth, got 'wax'"):
+    with pytest.raises(ValueError, match=rf"mode: expected one of {', '.join(MODES)}, got 'wax'"):
         render(ball(), None, SIZE, "wax", ctx=ctx)
 
 
@@ -166,3 +168,35 @@ def test_large_pictures_are_drawn_in_parts(ctx: moderngl.Context) -> None:
 
 def test_a_context_of_its_own() -> None:
     assert render(ball(), None, (8, 6), samples=1).shape == (6, 8, 4)
+
+
+@pytest.mark.parametrize("mode", MATERIALS)
+def test_materials_keep_the_shapes_colours(ctx: moderngl.Context, mode: str) -> None:
+    red, green = (
+        _middle(render(_block(color), None, SIZE, mode, samples=4, ctx=ctx)) for color in ((0.8, 0.1, 0.1), (0.1, 0.8, 0.1))
+    )
+    assert red[0] > 1.5 * red[1]
+    assert green[1] > 1.5 * green[0]
+
+
+def test_metal_mirrors_the_lamp_where_the_law_of_reflection_puts_it(ctx: moderngl.Context) -> None:
+    """The brightest spot of a ball has its normal halfway between the eye and the lamp."""
+    camera = replace(FRONT, distance=6.0)
+    pixels = render(_colored_ball((0.5, 0.5, 0.5)), camera, (120, 120), "metal", ctx=ctx)[..., :3].sum(axis=2).astype(float)
+    normals = render(ball(), camera, (120, 120), "normals", ctx=ctx)[..., :3] / 127.5 - 1
+    brightest = np.mean(normals[pixels >= np.quantile(pixels[40:80, 40:80], 0.97)], axis=0)
+    halfway = np.array(light_uniforms(camera)["key_direction"]) + camera.axes()[2]
+    cosine = brightest @ halfway / np.linalg.norm(brightest) / np.linalg.norm(halfway)
+    assert cosine > 0.97
+
+
+def test_the_studio_throws_no_shadow_from_its_key_light(ctx: moderngl.Context) -> None:
+    """To the left and right of a ball the bright ground is the same."""
+    picture = render(ball(), replace(FRONT, elevation=25.0, distance=8.0), (120, 90), "studio", ctx=ctx)[..., :3].astype(float)
+    left, right = picture[50:, :60].mean(), picture[50:, 60:].mean()
+    assert left == pytest.approx(right, abs=3)
+    assert picture[3, 3].min() > 215
+
+
+def _colored_ball(color: tuple[float, float, float]) -> Scene:
+    return Scene(shapes=(ball().shapes[0].changed(color=color),))

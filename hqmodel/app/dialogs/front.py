@@ -6,19 +6,23 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
-from ..asks import About, ChooseFile, Dialog, ExportAs, Exported, Problem, Shortcuts, Unsaved
+from ..asks import About, ChooseFile, Dialog, ExportAs, Exported, Overwrite, Palette, Problem, Recover, Shortcuts, Tour, Unsaved
 from ..intents import Answer, Ask, Intent
 from ..session import Session
-from . import about, chooser, exporting, problem, unsaved
+from . import about, chooser, exporting, palette, problem, recover, shortcuts, tour, unsaved
 from .buttons import untouched
 
 _DRAWN: dict[type[Dialog], Callable[[Dialog], list[Intent]]] = {
     Unsaved: unsaved.draw,
+    Overwrite: unsaved.draw_overwrite,
+    Recover: recover.draw,
     ChooseFile: chooser.draw,
     Problem: problem.draw,
     ExportAs: exporting.draw,
     Exported: exporting.draw_report,
-    Shortcuts: about.draw_shortcuts,
+    Palette: palette.draw,
+    Shortcuts: shortcuts.draw,
+    Tour: tour.draw,
     About: about.draw,
 }
 _FLAGS = imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_saved_settings
@@ -53,10 +57,18 @@ def _title(dialog: Dialog) -> str:
             return {"open": "Open", "save": "Save As", "export": "Export To"}[purpose]
         case Unsaved():
             return "Unsaved Changes"
+        case Overwrite():
+            return "Changed Meanwhile"
+        case Recover():
+            return "Unsaved Work Found"
         case ExportAs():
             return "Export"
         case Exported():
             return "Exported"
+        case Palette():
+            return "Commands"
         case Shortcuts():
             return "Shortcuts"
+        case Tour():
+            return "Welcome to hqmodel"
     return "About hqmodel"

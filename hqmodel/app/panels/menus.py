@@ -13,7 +13,16 @@ from ..intents import Do, Intent
 from ..session import Session
 
 _MODIFIERS = {"Ctrl": imgui.Key.mod_ctrl, "Shift": imgui.Key.mod_shift, "Alt": imgui.Key.mod_alt}
-_KEYS = {"Del": "delete", "Up": "up_arrow", "Down": "down_arrow", "Num .": "keypad_decimal"}
+_KEYS = {
+    "Del": "delete",
+    "Up": "up_arrow",
+    "Down": "down_arrow",
+    "Num .": "keypad_decimal",
+    "Num /": "keypad_divide",
+    "[": "left_bracket",
+    "]": "right_bracket",
+    **{str(digit): f"_{digit}" for digit in range(10)},
+}
 
 
 def draw(session: Session) -> list[Intent]:
@@ -28,8 +37,8 @@ def draw(session: Session) -> list[Intent]:
 
 
 def shortcuts(session: Session) -> list[Intent]:
-    """The actions whose keys were pressed; none while a dialog waits for its answer."""
-    if session.dialogs:
+    """The actions whose keys were pressed; none while a dialog waits for its answer or the hand holds something."""
+    if session.dialogs or session.held:
         return []
     return [
         Do(name)

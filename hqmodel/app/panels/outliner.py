@@ -82,7 +82,7 @@ def _tools(session: Session) -> list[Intent]:
         (icons.ICON_FA_ARROW_UP, "move up", "Move up (Ctrl+Up)"),
         (icons.ICON_FA_ARROW_DOWN, "move down", "Move down (Ctrl+Down)"),
     ):
-        imgui.same_line()
+        _beside(icon)
         imgui.begin_disabled(not chosen)
         if imgui.button(f"{icon}##{action}"):
             intents.append(Do(action))
@@ -91,25 +91,33 @@ def _tools(session: Session) -> list[Intent]:
     return intents
 
 
+def _beside(icon: str) -> None:
+    """The next button stands beside the last one where there is room, else below."""
+    style = imgui.get_style()
+    needed = style.item_spacing.x + imgui.calc_text_size(icon).x + 2 * style.frame_padding.x
+    right = imgui.get_cursor_screen_pos().x + imgui.get_content_region_avail().x
+    if imgui.get_item_rect_max().x + needed <= right:
+        imgui.same_line()
+
+
 def _shape(session: Session, tree: Tree, index: int) -> list[Intent]:
     """One shape's row: arrow, colour, name and eye."""
     shape = session.scene.shapes[index]
     imgui.push_id(f"shape {index}")
-    start = imgui.get_cursor_screen_pos()
     if imgui.arrow_button("open", imgui.Dir.down if _opened(session, tree, index) else imgui.Dir.right):
         tree.open ^= {index}
     imgui.same_line()
     imgui.color_button("color", (*shape.color, 1.0), imgui.ColorEditFlags_.no_tooltip | imgui.ColorEditFlags_.no_drag_drop)
     imgui.same_line()
     intents = _renamed(tree, index, shape) if tree.renaming == index else _name(session, tree, index, shape)
-    intents += _eye(index, shape, start.x)
+    intents += _eye(index, shape)
     imgui.pop_id()
     return intents
 
 
 def _name(session: Session, tree: Tree, index: int, shape: Shape) -> list[Intent]:
     intents: list[Intent] = []
-    width = imgui.get_content_region_avail().x - imgui.get_frame_height() - imgui.get_style().item_spacing.x
+    width = imgui.get_content_region_avail().x - _eye_width()
     if not shape.visible:
         imgui.push_style_color(imgui.Col_.text, imgui.get_style_color_vec4(imgui.Col_.text_disabled))
     selected = index in session.selection.shapes and (index != session.selection.active or session.selection.strip is None)
@@ -151,7 +159,7 @@ def _renamed(tree: Tree, index: int, shape: Shape) -> list[Intent]:
     if tree.fresh:
         imgui.set_keyboard_focus_here()
         tree.fresh = False
-    imgui.set_next_item_width(-imgui.get_frame_height() - imgui.get_style().item_spacing.x)
+    imgui.set_next_item_width(-_eye_width())
     flags = imgui.InputTextFlags_.auto_select_all | imgui.InputTextFlags_.enter_returns_true
     entered, tree.text = imgui.input_text("##rename", tree.text, flags)
     if not (entered or imgui.is_item_deactivated()):
@@ -177,11 +185,16 @@ def _dragged(index: int, shape: Shape) -> list[Intent]:
     return [Edit("Reorder", partial(edit.move_shape, index=dropped.data_id, to=index)), Select(index)]
 
 
-def _eye(index: int, shape: Shape, left: float) -> list[Intent]:
+def _eye_width() -> float:
+    """With the space before it."""
+    return 1.2 * imgui.get_frame_height() + imgui.get_style().item_spacing.x
+
+
+def _eye(index: int, shape: Shape) -> list[Intent]:
     imgui.same_line()
     imgui.push_style_color(imgui.Col_.button, (0, 0, 0, 0))
     icon = icons.ICON_FA_EYE if shape.visible else icons.ICON_FA_EYE_SLASH
-    clicked = imgui.button(f"{icon}###eye", (imgui.get_frame_height() * 1.2, 0))
+    clicked = imgui.button(f"{icon}###eye", (1.2 * imgui.get_frame_height(), 0))
     imgui.pop_style_color()
     imgui.set_item_tooltip("Hide" if shape.visible else "Show")
     return [Put(("shapes", index, "visible"), not shape.visible, "Hide" if shape.visible else "Show")] if clicked else []

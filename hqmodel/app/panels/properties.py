@@ -12,6 +12,7 @@ from hqmodel.model import FIELDS, Shape, Strip
 from ..form import Form, Memory
 from ..intents import Do, Edit, Intent, Put, Select
 from ..session import Session
+from . import frame
 from .naming import shape_name, strip_label, strip_name
 
 _SIGNS = {"Closed (+)": 1, "Hyperbolic (-)": -1}
@@ -38,18 +39,20 @@ def _shape(form: Form, index: int, shape: Shape) -> None:
     form.text((*at, "name"), "Name")
     form.color((*at, "color"))
     form.toggle((*at, "visible"), "Visible")
-    if _section("Strips"):
+    if heading("Strips"):
         _strips(form, index, shape)
-    if _section("Blend"):
+    if heading("Blend"):
         for name in ("coefficient", "hardness", "constant"):
             form.number((*at, name))
-    if _section("Transform"):
+    if heading("Transform"):
         form.number((*at, "transform", "translation"))
         form.rotation((*at, "transform", "rotation"))
         form.number((*at, "transform", "scale"))
         _mirror(form, index, shape)
-    if shape.groups and _section("Groups"):
+    if shape.groups and heading("Groups"):
         _groups(form, index, shape)
+    if heading("Frame in four-space", opened=False):
+        frame.draw(form, index)
 
 
 def _strips(form: Form, index: int, shape: Shape) -> None:
@@ -147,12 +150,13 @@ def _group(form: Form, index: int, number: int, shape: Shape) -> None:
     imgui.end_combo()
 
 
-def _section(title: str) -> bool:
+def heading(title: str, opened: bool = True) -> bool:
+    """A section that folds, open at first or not; whether it is open."""
     imgui.spacing()
     imgui.push_style_color(imgui.Col_.header, imgui.get_style_color_vec4(imgui.Col_.table_header_bg))
-    opened = imgui.collapsing_header(title, imgui.TreeNodeFlags_.default_open)
+    shown = imgui.collapsing_header(title, imgui.TreeNodeFlags_.default_open if opened else imgui.TreeNodeFlags_.none)
     imgui.pop_style_color()
-    return bool(opened)
+    return bool(shown)
 
 
 def _help(name: str) -> str:

@@ -30,7 +30,7 @@ def draw(session: Session) -> list[Intent]:
 
 
 def summary(session: Session) -> str:
-    scene = session.scene
+    scene = session.shown
     shapes, strips = len(scene.shapes), scene.strip_count
     return f"{shapes} shape{'s' * (shapes != 1)}   {strips} strip{'s' * (strips != 1)}   t = {scene.slice:.4g}"
 

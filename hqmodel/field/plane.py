@@ -6,11 +6,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from hqmodel.field import Terms
-
-Array = NDArray[np.float64]
+from .terms import Array, Terms
 
 
 @dataclass(frozen=True)
