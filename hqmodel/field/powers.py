@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .terms import HUGE, Array, Terms
+from .terms import HUGE, Array, Indices, Terms
 
 CEILING = 1e300
 _STEEP = 1e140
@@ -125,3 +125,14 @@ def strip_slopes(terms: Terms, h: Array) -> Array:
         shares = share_power(u / np.maximum(largest, _TINY), inner, 1)
         slope *= np.minimum(group_factor(outer, inner, largest, spread, 1) * shares, _STEEP)
     return result
+
+
+def over_runs(rows: Array, starts: Indices) -> Array:
+    """Sums over runs of rows (n, P) that begin at `starts`, (len(starts), P)."""
+    count, runs = len(rows), len(starts)
+    if runs == count:
+        return rows
+    even = count // runs
+    if np.array_equal(starts, np.arange(runs) * even) and runs * even == count:
+        return rows.reshape(runs, even, -1).sum(axis=1)
+    return np.add.reduceat(rows, starts, axis=0)
