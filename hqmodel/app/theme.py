@@ -17,6 +17,7 @@ def apply(name: str, scale: float, size: float) -> None:
     for field, value in _SPACES.items():
         scaled = (value[0] * scale, value[1] * scale) if isinstance(value, tuple) else value * scale
         setattr(style, field, scaled)
+    style.selectable_text_align = imgui.ImVec2(0.0, 0.5)
     for slot, color in _colors(name == "light").items():
         style.set_color_(slot, color)
 
@@ -37,7 +38,6 @@ _SPACES: dict[str, float | tuple[float, float]] = {
     "grab_rounding": 3.0,
     "tab_rounding": 4.0,
     "scrollbar_rounding": 6.0,
-    "selectable_text_align": (0.0, 0.5),
     "window_border_size": 1.0,
     "docking_separator_size": 2.0,
 }

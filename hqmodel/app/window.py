@@ -56,7 +56,7 @@ class Window:
         self._dropped: list[Path] = []
         self._title = ""
         self._stirred = 0.0
-        self._themed: tuple[str, float, float] | None = None
+        self._themed: tuple[tuple[str, float, float], bool] | None = None
         self.panels = self._panels()
         self.params = self._parameters()
         if scale != 1.0:
@@ -228,9 +228,10 @@ class Window:
 
     def _restyle(self) -> None:
         wanted = self.session.theme, hello_imgui.dpi_window_size_factor(), self.session.percent / 100
-        if wanted != self._themed:
+        started = imgui.get_frame_count() > 0  # in its first frame hello_imgui scales the style once more
+        if (wanted, started) != self._themed:
             theme.apply(*wanted)
-            self._themed = wanted
+            self._themed = wanted, started
 
     def _retitle(self) -> None:
         import glfw

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from hqmodel.edit import SHARP, STARTS, frame_of, framed_scene
+from hqmodel.field import FEWEST_TERMS, frame_residual, slice_range
 from hqmodel.files import dumps
 from hqmodel.model import FIELDS, MAX_STRIPS, shown
 
@@ -19,7 +20,7 @@ Frame = Annotated[str, typer.Option("--frame", metavar="NAME", help=f"One of {',
 Output = Annotated[Path, typer.Option("-o", "--output", metavar="PRESET", help="The preset to write.", show_default=False)]
 Gamma = Annotated[float, typer.Option("--gamma", metavar="G", help="Every strip's exponent: 1 for a cross-polytope's slice.")]
 Terms = Annotated[
-    int, typer.Option("--terms", metavar="N", min=4, max=MAX_STRIPS, help="How many strips hypercube or random has.")
+    int, typer.Option("--terms", metavar="N", min=FEWEST_TERMS, max=MAX_STRIPS, help="How many strips hypercube or random has.")
 ]
 Seed = Annotated[int, typer.Option("--seed", metavar="S", min=0, help="The same seed gives the same random frame.")]
 
@@ -47,8 +48,6 @@ def new(
     scene = adjusted(framed_scene(frame, gamma, terms, seed), slice_t, None)
     with writing([output]) as (stream,):
         stream.write(dumps(scene).encode())
-    from hqmodel.field import frame_residual, slice_range  # late: a command line at fault is told at once
-
     extent = slice_range(scene)
     result = {
         "frame": frame,

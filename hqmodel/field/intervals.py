@@ -25,6 +25,20 @@ def box_bounds(terms: Terms, low: ArrayLike, high: ArrayLike) -> tuple[Array, Ar
     return _in_slices(terms, box_ranges, np.asarray(low, dtype=float), np.asarray(high, dtype=float))
 
 
+def box_tops(terms: Terms, low: ArrayLike, high: ArrayLike) -> Array:
+    """Only the upper bound of L, (n,), over the boxes from low to high, (n, 3) each: half the work where nothing carves."""
+    low, high = np.asarray(low, dtype=float), np.asarray(high, dtype=float)
+    if not np.all(terms.positive) or not len(terms):
+        return box_bounds(terms, low, high)[1]
+    tops = np.empty(len(low))
+    for here in _slices(terms, len(low)):
+        middle, reach = box_ranges(terms, low[here], high[here])
+        size = np.abs(middle)
+        t, pad = _exponents(terms, np.maximum(size - reach, 0.0), size + reach)
+        tops[here] = log_balance(terms, t + pad)
+    return tops
+
+
 def segment_bounds(terms: Terms, start: ArrayLike, end: ArrayLike) -> tuple[Array, Array]:
     """Lower and upper bound of L, (n,) each, along the straight segments from start to end, (n, 3) each."""
     return _in_slices(terms, _segment_ranges, np.asarray(start, dtype=float), np.asarray(end, dtype=float))
@@ -48,12 +62,16 @@ def _exponents(terms: Terms, adding: Array, taking: Array) -> tuple[Array, Array
         return exponents(terms, sums), pad
 
 
+def _slices(terms: Terms, count: int) -> list[slice]:
+    """What is worked on at once, of so many boxes or segments."""
+    step = max(1, _CELLS // max(1, len(terms.inner)))
+    return [slice(begin, begin + step) for begin in range(0, count, step)]
+
+
 def _in_slices(terms: Terms, ranges: _Ranges, first: Array, second: Array) -> tuple[Array, Array]:
     count = len(first)
     lower, upper = np.empty(count), np.empty(count)
-    step = max(1, _CELLS // max(1, len(terms.inner)))
-    for begin in range(0, count, step):
-        here = slice(begin, begin + step)
+    for here in _slices(terms, count):
         t_low, t_high = term_bounds(terms, *ranges(terms, first[here], second[here]))
         lower[here], upper[here] = log_balance(terms, t_low, t_high), log_balance(terms, t_high, t_low)
     return lower, upper

@@ -28,7 +28,8 @@ _CANCELLED = 1e-8
 class RadialSolution:
     """Where the surface lies along each direction, (n,) each.
 
-    `radius` is the distance from the centre in world units; `iterations` counts the evaluations of the field and its gradient.
+    `radius` is the distance from the centre in world units; `iterations` counts the evaluations of the field and its gradient,
+    none where the region cuts the body.
     """
 
     radius: Array

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from hqmodel.model import Scene
 
-from .intervals import box_bounds, relevant_terms
+from .intervals import box_tops, relevant_terms
 from .powers import CEILING
 from .terms import HUGE, Array, Indices, Terms
 
@@ -192,12 +192,12 @@ class _Parts:
     def alive(self, parts: Indices, low: Array, high: Array) -> NDArray[np.bool_]:
         """(n,) whether cells from low to high, (n, 3), may hold some of the body; `parts` (n, 3) says in which each lies."""
         if len(self._terms) < _FEW:
-            return box_bounds(self._terms, low, high)[1] > 0
+            return box_tops(self._terms, low, high) > 0
         alive = np.empty(len(low), dtype=bool)
         every, which = np.unique(parts, axis=0, return_inverse=True)
         for number, part in enumerate(every):
             here = which == number
-            alive[here] = box_bounds(self._of(part), low[here], high[here])[1] > -_LEFT_OUT
+            alive[here] = box_tops(self._of(part), low[here], high[here]) > -_LEFT_OUT
         return alive
 
     def _of(self, part: Indices) -> Terms:

@@ -1,12 +1,11 @@
 """All-quad meshes of star-shaped bodies: the grid of a cube blown up onto the surface, by Newton's radii (eqs. 34-37).
 
 The paper's own grid, latitude by longitude, is drawn together at its poles; a cube's has none, and nearly even cells. Unfolded,
-the cube's faces make a cross, which gives texture coordinates with few seams: where they are cut, and where the ends meet.
+the cube's faces make a cross, which gives texture coordinates: their only seams are its outline.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -24,11 +23,14 @@ from hqmodel.field import (
 )
 from hqmodel.model import Scene
 
+from .build import Progress
 from .measure import depths, largest_distance
 from .mesh import Array, Mesh, MeshError, Quads, lengths, unit
 from .shade import colored
 
 Integers = NDArray[np.int64]
+# Directions that are solved between two reports of progress.
+_AT_ONCE = 1 << 14
 # Of each face of the cube its direction, what is right and what is up on it as seen from outside, and its place in the cross.
 _FACES = [
     ((0, -1, 0), (1, 0, 0), (0, 0, 1), (1, 1)),
@@ -51,10 +53,10 @@ class _Cube(NamedTuple):
     cross_cells: Integers
 
 
-def radial_quads(scene: Scene, around: int = 256, progress: Callable[[float, str], None] | None = None) -> Mesh:
+def radial_quads(scene: Scene, around: int = 256, progress: Progress | None = None) -> Mesh:
     """The scene's body as a closed mesh of quads in world units, with normals, colours and texture coordinates.
 
-    `around`: how many quads there are round the equator, to the next multiple of 8. `faces` are the quads cut along their
+    `around`: how many quads there are round the equator, to the nearest multiple of 8. `faces` are the quads cut along their
     shorter diagonals. A scene that is its own mirror image gives a mesh that is, to the last bit. Raises MeshError where there
     is no body, one that is cut, or one that is not star-shaped.
     """
@@ -68,9 +70,8 @@ def radial_quads(scene: Scene, around: int = 256, progress: Callable[[float, str
         centre = star_centre(terms, where)
     except NotStarShaped as error:
         raise MeshError(str(error)) from None
-    tell(0.1, "Solving")
     cube = _cube(2 * max(1, round(around / 8)))
-    mesh = _blown_up(scene, terms, where, centre, cube)
+    mesh = _blown_up(scene, terms, where, centre, cube, tell)
     tell(1.0, "Done")
     return mesh
 
@@ -89,16 +90,13 @@ def _cube(n: int) -> _Cube:
     return _Cube(unique, which.reshape(-1)[cells], unfolded, place_of.reshape(-1)[cells])
 
 
-def _blown_up(scene: Scene, terms: Terms, where: Region, centre: Array, cube: _Cube) -> Mesh:
+def _blown_up(scene: Scene, terms: Terms, where: Region, centre: Array, cube: _Cube, tell: Progress) -> Mesh:
     """The mesh about the centre: worked out on one side of the mirror planes, and put on the other by a change of sign."""
     n = int(np.max(cube.points))
     mirrored = np.isin(np.arange(3), mirror_axes(terms, where))
     own, which = np.unique(np.where(mirrored, np.abs(cube.points), cube.points), axis=0, return_inverse=True)
     directions = unit(np.tan(np.pi / 4 * own / n))
-    solution = radial_solution(terms, where, centre, directions)
-    if np.any(solution.iterations == 0):
-        raise MeshError("expected a body that ends by itself, got one that its bounds, or a flat shape's plate, cut")
-    points = centre + solution.radius[:, None] * directions
+    points = centre + _radii(terms, where, centre, directions, tell)[:, None] * directions
     slopes = near_linear_gradient(terms, points)[1]
     steepness = lengths(slopes)
     normals = np.where(steepness[:, None] > 0, unit(-slopes), directions)
@@ -114,6 +112,19 @@ def _blown_up(scene: Scene, terms: Terms, where: Region, centre: Array, cube: _C
         largest_distance(terms, vertices, faces, off, float(np.max(where.size)) / n),
         Quads(cube.cells.astype(np.int32), cube.cross / (4 * n) + (0, 0.125), cube.cross_cells.astype(np.int32)),
     )
+
+
+def _radii(terms: Terms, where: Region, centre: Array, directions: Array, tell: Progress) -> Array:
+    """The surface's distances (n,) along directions (n, 3), some thousand at a time."""
+    radii = np.empty(len(directions))
+    for start in range(0, len(directions), _AT_ONCE):
+        tell(0.1 + 0.8 * start / len(directions), "Solving")
+        here = slice(start, start + _AT_ONCE)
+        solution = radial_solution(terms, where, centre, directions[here])
+        if np.any(solution.iterations == 0):
+            raise MeshError("expected a body that ends by itself, got one that its bounds, or a flat shape's plate, cut")
+        radii[here] = solution.radius
+    return radii
 
 
 def _triangles(vertices: Array, cells: Integers, n: int) -> NDArray[np.int32]:

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hqmodel.field import Terms, box_bounds, log_ratio, relevant_terms, segment_bounds
+from hqmodel.field.intervals import box_tops
 from hqmodel.model import Scene
 
 from ..cases import NAMES, case
@@ -67,3 +68,11 @@ def test_terms_left_out_do_not_move_the_surface(name: str) -> None:
         near = np.abs(full) < 1.0
         np.testing.assert_allclose(log_ratio(local, points)[near], full[near], rtol=0, atol=1e-13)
     assert left_out or not name.startswith("composite")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_tops_are_the_upper_bounds(name: str) -> None:
+    terms = Terms.of(case(name).scene)
+    low = np.random.default_rng(6).uniform(-2, 2, size=(300, 3))
+    high = low + np.random.default_rng(7).uniform(0, 0.5, size=(300, 3))
+    assert np.array_equal(box_tops(terms, low, high), box_bounds(terms, low, high)[1])

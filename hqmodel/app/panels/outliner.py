@@ -122,7 +122,7 @@ def _name(session: Session, tree: Tree, index: int, shape: Shape) -> list[Intent
         imgui.push_style_color(imgui.Col_.text, imgui.get_style_color_vec4(imgui.Col_.text_disabled))
     selected = index in session.selection.shapes and (index != session.selection.active or session.selection.strip is None)
     sign = "  - carves" if shape.coefficient < 0 else ""
-    imgui.set_cursor_pos_y(imgui.get_cursor_pos_y() - imgui.get_style().frame_padding.y)
+    imgui.internal.get_current_window().dc.curr_line_text_base_offset = 0.0  # it is as high as a frame, and no text within one
     flags = imgui.SelectableFlags_.allow_double_click
     clicked, _ = imgui.selectable(f"{shape_name(shape, index)}{sign}###name", selected, flags, (width, imgui.get_frame_height()))
     if not shape.visible:

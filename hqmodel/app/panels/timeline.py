@@ -128,7 +128,7 @@ def _row(session: Session, reel: Reel, index: int, animation: Animation) -> list
         ended = animation.repeat == "once" and player.share >= 1
         intents += [Pick(index), Play(animation, player.share if ours and not ended else 0.0, not running)]
     imgui.table_next_column()
-    imgui.set_cursor_pos_y(imgui.get_cursor_pos_y() - imgui.get_style().frame_padding.y)
+    imgui.internal.get_current_window().dc.curr_line_text_base_offset = 0.0  # it is as high as a frame, and no text within one
     name = animation.name or f"Animation {index + 1}"
     if imgui.selectable(f"{name}###pick", session.animation == index, size=(0, imgui.get_frame_height()))[0]:
         intents.append(Pick(index))
