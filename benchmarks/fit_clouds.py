@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
+
 import numpy as np
 from numpy.typing import NDArray
 
 from hqmodel.field import Terms, first_hits, near_linear_gradient, region
-from hqmodel.model import Scene
+from hqmodel.model import Scene, Shape, Strip
 
 Array = NDArray[np.float64]
 KINDS = ("clean", "noise", "outliers", "one side")
@@ -14,6 +17,36 @@ KINDS = ("clean", "noise", "outliers", "one side")
 NOISE, OUTLIERS, ROOM = 0.01, 0.2, 0.1
 # Median radial errors, as shares of the diagonal, that a fit is to stay under.
 GOALS = {"clean": 0.001, "noise": 0.003, "outliers": 0.003, "one side": 0.005}
+
+_REFERENCE = Path(__file__).parent.parent / "tests" / "reference"
+# What the random shapes' exponents are of.
+_GAMMAS = 1.3, 2.0, 3.0, 5.0, 9.0, 20.0, 60.0
+
+
+def reference_convex() -> dict[str, Scene]:
+    """The reference cases that are one convex body of at most 8 strips."""
+    files = sorted(_REFERENCE.glob("*.json"))
+    every = {file.stem: Scene.model_validate(json.loads(file.read_text())["preset"]) for file in files}
+    return {name: scene for name, scene in every.items() if len(scene.shapes) == 1 and _convex(scene.shapes[0])}
+
+
+def _convex(shape: Shape) -> bool:
+    return len(shape.strips) <= 8 and all(strip.sign > 0 and strip.gamma >= 1 for strip in shape.strips)
+
+
+def random_convex(seed: int) -> Scene:
+    """A convex body of 3 to 8 strips at random."""
+    rng = np.random.default_rng(seed)
+    normals = _unit(rng.normal(size=(int(rng.integers(3, 9)), 3)))
+    while np.linalg.svd(normals, compute_uv=False)[2] < 0.3:
+        normals = _unit(rng.normal(size=normals.shape))
+    strips = (
+        Strip(
+            normal=(n[0], n[1], n[2]), gamma=rng.choice(_GAMMAS), half_width=rng.uniform(0.6, 1.15), offset=rng.normal(scale=0.15)
+        )
+        for n in normals.tolist()
+    )
+    return Scene(shapes=(Shape(strips=tuple(strips)),))
 
 
 def true_points(scene: Scene, count: int, rng: np.random.Generator) -> Array:

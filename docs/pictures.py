@@ -11,6 +11,7 @@ import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from PIL import Image, ImageGrab
 
@@ -32,6 +33,7 @@ SOLIDS = (
      "truncated-icosidodecahedron"),
 )  # fmt: skip
 IN_THE_WINDOW = "cat"
+SHOT_MILLISECONDS = 600
 REFINED_AFTER = 120.0  # seconds, for a software renderer
 
 
@@ -66,11 +68,23 @@ def window() -> Image.Image:
         modeller.wait()
 
 
+def sculpting() -> list[Image.Image]:
+    """A sculpting session in the window, from the tests' own hands."""
+    with TemporaryDirectory() as folder:
+        command = [sys.executable, "-m", "tests.app.drive", "tests.app.sculpting:session", folder]
+        subprocess.run(command, check=True, cwd=IMAGES.parents[1])
+        shots = [Image.open(path).convert("RGB") for path in sorted(Path(folder).glob("film-*.png"))]
+    palette = shots[-1].quantize(192, Image.Quantize.MEDIANCUT)
+    return [shot.quantize(palette=palette, dither=Image.Dither.NONE) for shot in shots]
+
+
 def main() -> None:
     """Write the pictures."""
     IMAGES.mkdir(exist_ok=True)
     for name, make in (("starters", starters), ("solids", solids), ("window", window)):
         make().save(IMAGES / f"{name}.jpg", quality=90)
+    first, *rest = sculpting()
+    first.save(IMAGES / "sculpting.gif", save_all=True, append_images=rest, duration=SHOT_MILLISECONDS, loop=0)
 
 
 if __name__ == "__main__":

@@ -46,10 +46,10 @@ void main()
         else
             march_state.x = next;
 #else
-        float way = -near_linear(ray.origin + march_state.x * ray.direction) * slowest;
-        if (way < 2e-5)
+        float value = near_linear(ray.origin + march_state.x * ray.direction);
+        if (value > -2e-5)
             march_state.w = 2.0;
-        march_state.x += way;
+        march_state.x -= value * slowest;
 #endif
         if (march_state.x > ray.far || i + 1 == all_steps && march_state.w == 0.0)
             march_state.w = 4.0;

@@ -14,6 +14,8 @@ from hqmodel.model import VIEWS, Scene, Strip
 
 from .asks import About, ChooseFile, ExportAs, ExportSettings, New, Palette, Problem, Quit, Shortcuts, Tour
 from .catalogue import catalogue
+from .forecast import Forecast
+from .importing import ENDINGS
 from .intents import Choose, Edit, Equip, Select
 from .tools.arranging import AXES
 from .tools.kit import TOOLS
@@ -26,9 +28,9 @@ if TYPE_CHECKING:
 THEMES = ("dark", "light")
 # Of everything in the window, in hundredths of its usual size.
 SIZES = (80, 90, 100, 110, 125, 150, 175, 200)
-PANELS = ("Outliner", "Presets", "Properties", "Scene", "Timeline")
+PANELS = ("Outliner", "Presets", "Properties", "Scene", "Timeline", "Landscape")
 # Not shown before they are asked for.
-HIDDEN = ("Timeline",)
+HIDDEN = ("Timeline", "Landscape")
 
 
 def _always(_: Session) -> bool:
@@ -92,13 +94,21 @@ def _versions(session: Session) -> None:
         session.dialogs.append(ChooseFile("open", files.backup_folder(session.document.path)))
 
 
-def _exporting(session: Session) -> bool:
-    return session.export is not None
+def _import(session: Session) -> None:
+    session.dialogs.append(ChooseFile("import", session.folder, endings=ENDINGS))
+
+
+def _show_cloud(session: Session) -> None:
+    session.cloud_hidden = not session.cloud_hidden
+
+
+def _working(session: Session) -> bool:
+    return session.job is not None
 
 
 def _stop_export(session: Session) -> None:
-    if session.export is not None:
-        session.export.cancel()
+    if session.job is not None:
+        session.job.cancel()
 
 
 def _export(session: Session) -> None:
@@ -108,7 +118,8 @@ def _export(session: Session) -> None:
         session.dialogs.append(Problem("Nothing to export", (reason,)))
         return
     path = session.folder / session.document.file_name
-    session.dialogs.append(ExportAs(ExportSettings(path.with_suffix(".glb"))))
+    told = Forecast(session.scene, session.wake).told
+    session.dialogs.append(ExportAs(ExportSettings(path.with_suffix(".glb")), told))
 
 
 UNBOUNDED = "The body runs on without end: give it bounds in the Scene panel, the box that it is cut by."
@@ -270,18 +281,29 @@ def _switch_projection(session: Session) -> None:
 
 
 def _section(axis: str, session: Session) -> None:
-    """The body cut in its middle, across this axis; once more, whole again."""
-    normal, cut = AXES[axis], session.view.cut
-    middle = float(session.region.centre @ normal)
-    session.view = replace(session.view, cut=None if cut and cut.normal == normal else Plane(normal, middle))
+    """The body cut in its middle, across this axis, the half nearer to the eye gone; once more, whole again."""
+    if _sectioned(axis, session):
+        session.view = replace(session.view, cut=None)
+        return
+    x, y, z = AXES[axis]
+    normal = (x, y, z) if session.view.camera.axes()[2] @ (x, y, z) >= 0 else (-x, -y, -z)
+    session.view = replace(session.view, cut=Plane(normal, float(session.region.centre @ normal)))
 
 
 def _sectioned(axis: str, session: Session) -> bool:
-    return session.view.cut is not None and session.view.cut.normal == AXES[axis]
+    return session.view.cut is not None and tuple(map(abs, session.view.cut.normal)) == AXES[axis]
 
 
 def _switch_ghosts(session: Session) -> None:
     session.view = replace(session.view, ghosts=not session.view.ghosts)
+
+
+def _flat(session: Session) -> bool:
+    return session.scene.dimension == 2
+
+
+def _switch_bands(session: Session) -> None:
+    session.view = replace(session.view, bands=not session.view.bands)
 
 
 def _refining(session: Session) -> bool:
@@ -353,8 +375,10 @@ ACTIONS: dict[str, Action] = {
     "save": Action("Save", _save, ("Ctrl+S",)),
     "save as": Action("Save As...", _save_as, ("Ctrl+Shift+S",)),
     "versions": Action("Earlier Versions...", _versions, (), _has_versions),
-    "export": Action("Export...", _export, ("Ctrl+E",), lambda s: s.export is None),
-    "stop export": Action("Stop the Export", _stop_export, (), _exporting),
+    "export": Action("Export...", _export, ("Ctrl+E",), lambda s: s.job is None),
+    "import": Action("Import and Fit...", _import, ("Ctrl+I",), lambda s: s.job is None),
+    "stop export": Action("Stop What Is Under Way", _stop_export, (), _working),
+    "cloud": Action("Imported Points", _show_cloud, (), lambda s: s.cloud is not None, lambda s: not s.cloud_hidden),
     "quit": Action("Quit", lambda s: s.leave(Quit()), ("Ctrl+Q",)),
     "undo": Action("Undo", lambda s: s.undo(), ("Ctrl+Z",), lambda s: s.history.can_undo, None, lambda s: s.history.undo_label),
     "redo": Action(
@@ -393,6 +417,7 @@ ACTIONS: dict[str, Action] = {
         for axis in AXES
     },
     "ghosts": Action("Carving Shapes as Ghosts", _switch_ghosts, (), _always, lambda s: s.view.ghosts),
+    "bands": Action("Bands", _switch_bands, (), _flat, lambda s: s.view.bands),
     "refine": Action("Refine at Rest", _switch_refining, (), _always, _refining),
     "frame all": Action("Frame All", _frame_all, ("Home",)),
     "frame selected": Action("Frame Selected", _frame_selected, ("F", "Num .")),
@@ -417,7 +442,7 @@ RECENT = "recent"
 
 # The menu bar: names of actions, None for a line between, a pair for a menu within; RECENT stands for the recent files.
 MENUS: dict[str, tuple[Entry, ...]] = {
-    "File": ("new", "open", RECENT, None, "save", "save as", "versions", None, "export", "stop export", None, "quit"),
+    "File": ("new", "open", RECENT, None, "save", "save as", "versions", None, "import", "export", "stop export", None, "quit"),
     "Edit": ("undo", "redo", None, "select all", "select none", None, "duplicate", "delete", "move up", "move down"),
     "Add": (*(f"add {kind}" for kind in edit.PRIMITIVES), *(f"add prism {n}" for n in PRISMS), None, "add strip"),
     "Shape": (
@@ -437,6 +462,8 @@ MENUS: dict[str, tuple[Entry, ...]] = {
         None,
         ("Section", tuple(f"section {axis}" for axis in AXES)),
         "ghosts",
+        "bands",
+        "cloud",
         "refine",
         None,
         "frame all",

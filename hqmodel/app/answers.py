@@ -7,7 +7,21 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from . import actions
-from .asks import ChooseFile, Dialog, ExportAs, ExportSettings, Open, Overwrite, Palette, Recover, Recovered, Tour, Unsaved
+from .asks import (
+    ChooseFile,
+    Dialog,
+    ExportAs,
+    ExportSettings,
+    ImportAs,
+    ImportSettings,
+    Open,
+    Overwrite,
+    Palette,
+    Recover,
+    Recovered,
+    Tour,
+    Unsaved,
+)
 
 if TYPE_CHECKING:
     from .session import Session
@@ -36,6 +50,10 @@ def take(session: Session, dialog: Dialog, value: object) -> None:
             session.save_chosen(path)
         case ChooseFile(purpose="export"), Path() as path:
             _export_to(session, path)
+        case ChooseFile(purpose="import"), Path() as path:
+            session.dialogs.append(ImportAs(ImportSettings(path)))
+        case ImportAs(), ImportSettings() as settings:
+            session.start_fit(settings)
         case Tour(), _:
             session.keep(session.settings.preferring(toured=True))
         case Palette(), str() as name:
@@ -48,4 +66,4 @@ def _export_to(session: Session, path: Path) -> None:
     """The chosen file goes into the export dialog that asked for it."""
     asking = session.dialogs[-1]
     if isinstance(asking, ExportAs):
-        session.dialogs[-1] = ExportAs(replace(asking.settings, path=path))
+        session.dialogs[-1] = replace(asking, settings=replace(asking.settings, path=path))

@@ -5,7 +5,7 @@ How each dialog is drawn is in `dialogs`.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -15,9 +15,10 @@ from hqmodel.files import Lost
 if TYPE_CHECKING:
     from .catalogue import Command
 
-Purpose = Literal["open", "save", "export"]
+Purpose = Literal["open", "save", "export", "import"]
 Unit = Literal["mm", "cm", "m", "in"]
 Up = Literal["y", "z"]
+Method = Literal["cubes", "radial"]
 Choice = Literal["save", "discard"]
 Overtaken = Literal["overwrite", "elsewhere"]
 
@@ -84,10 +85,15 @@ class ChooseFile:
     replacing: bool = False
 
     @property
+    def reading(self) -> bool:
+        """Whether the file is to be read, and so must be there."""
+        return self.purpose in ("open", "import")
+
+    @property
     def path(self) -> Path:
         """What is chosen so far; a file to be written gets the first ending where it has none of them."""
         path = self.folder / self.name
-        if self.purpose == "open" or path.suffix.lower() in self.endings:
+        if self.reading or path.suffix.lower() in self.endings:
             return path
         return path.with_name(path.name + self.endings[0])
 
@@ -107,6 +113,7 @@ class ExportSettings:
 
     path: Path
     resolution: int = 256
+    method: Method = "cubes"
     target_faces: int | None = None
     unit: Unit | None = None
     size: float | None = None
@@ -117,9 +124,26 @@ class ExportSettings:
 
 @dataclass(frozen=True)
 class ExportAs:
-    """How the body shall be exported. Answered by ExportSettings."""
+    """How the body shall be exported. Answered by ExportSettings. `told` says what that will come to, as far as is known."""
 
     settings: ExportSettings
+    told: Callable[[ExportSettings], str] = field(default=lambda _: "", compare=False)
+
+
+@dataclass(frozen=True)
+class ImportSettings:
+    """What is fitted to which points: so many bodies, or as many as it takes, of at most so many strips each."""
+
+    path: Path
+    parts: int | None = 1
+    strips: int = 8
+
+
+@dataclass(frozen=True)
+class ImportAs:
+    """How points or a mesh shall be fitted. Answered by ImportSettings."""
+
+    settings: ImportSettings
 
 
 @dataclass(frozen=True)
@@ -159,4 +183,6 @@ class About:
     """What this program is."""
 
 
-Dialog = Unsaved | Overwrite | Recover | ChooseFile | Problem | ExportAs | Exported | Palette | Shortcuts | Tour | About
+Dialog = (
+    Unsaved | Overwrite | Recover | ChooseFile | Problem | ExportAs | Exported | ImportAs | Palette | Shortcuts | Tour | About
+)

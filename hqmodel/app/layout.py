@@ -18,12 +18,14 @@ _PLACES = {
     "Properties": "RightSpace",
     "Scene": "RightSpace",
     "Timeline": "LowerSpace",
+    "Landscape": "RightLowerSpace",
 }
 _SPLITS = (
     ("MainDockSpace", "LeftSpace", imgui.Dir.left, 0.2),
     ("MainDockSpace", "RightSpace", imgui.Dir.right, 0.34),
     ("LeftSpace", "LeftLowerSpace", imgui.Dir.down, 0.55),
     ("MainDockSpace", "LowerSpace", imgui.Dir.down, 0.3),
+    ("RightSpace", "RightLowerSpace", imgui.Dir.down, 0.5),
 )
 _PLAIN = imgui.internal.DockNodeFlagsPrivate_.no_window_menu_button | imgui.internal.DockNodeFlagsPrivate_.no_close_button
 _FIXED = imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse | imgui.WindowFlags_.no_move

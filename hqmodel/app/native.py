@@ -38,8 +38,10 @@ class NativeChooser:
 
 def _opened(asked: ChooseFile) -> Any:
     filters = ["Presets" if ".json" in asked.endings else "Meshes", " ".join(f"*{ending}" for ending in asked.endings)]
-    if asked.purpose == "open":
-        return portable_file_dialogs.open_file("Open", str(asked.folder), [*filters, "All files", "*"])
+    if asked.reading:
+        return portable_file_dialogs.open_file(
+            "Open" if asked.purpose == "open" else "Import", str(asked.folder), [*filters, "All files", "*"]
+        )
     title = "Save As" if asked.purpose == "save" else "Export To"
     return portable_file_dialogs.save_file(title, str(asked.folder / asked.name), filters)
 

@@ -6,6 +6,7 @@ Panels read it and return intents; `Session.apply` is the one place where they a
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from functools import reduce
 from pathlib import Path
 from time import monotonic
 
@@ -15,9 +16,25 @@ from hqmodel.field import Region, region
 from hqmodel.model import Camera, Scene
 
 from . import actions, answers
-from .asks import ChooseFile, Departure, Dialog, ExportSettings, New, Open, Overwrite, Problem, Quit, Recover, Unsaved
+from .asks import (
+    ChooseFile,
+    Departure,
+    Dialog,
+    Exported,
+    ExportSettings,
+    ImportAs,
+    ImportSettings,
+    New,
+    Open,
+    Overwrite,
+    Problem,
+    Quit,
+    Recover,
+    Unsaved,
+)
 from .document import Document
 from .export import ExportJob
+from .importing import ENDINGS, Cloud, FitJob, Fitted
 from .intents import (
     Adjust,
     Animate,
@@ -73,7 +90,9 @@ class Session:
         self.wake = wake
         self.size = (800, 600)
         self.dialogs: list[Dialog] = []
-        self.export: ExportJob | None = None
+        self.job: ExportJob | FitJob | None = None
+        self.cloud: Cloud | None = None
+        self.cloud_hidden: bool = False
         self.hidden_panels = set(actions.HIDDEN)
         self.animation: int | None = None
         self.layout_wanted = False
@@ -304,9 +323,9 @@ class Session:
             case Open(path):
                 self._open(path)
             case Quit():
-                if self.export is not None:
-                    self.export.cancel()
-                    self.export.wait()
+                if self.job is not None:
+                    self.job.cancel()
+                    self.job.wait()
                 self.finished = True
 
     def save(self, path: Path | None, then: Departure | None = None) -> None:
@@ -424,24 +443,57 @@ class Session:
     def start_export(self, settings: ExportSettings) -> None:
         """Begin an export in the background."""
         self.release()
-        self.export = ExportJob(self.scene, settings, self.wake)
+        self.job = ExportJob(self.scene, settings, self.wake)
         self.say(f"Exporting {settings.path.name}")
 
+    def take_file(self, path: Path) -> None:
+        """A file was dropped on the window: a preset opens, points and meshes are fitted."""
+        if path.suffix.lower() in ENDINGS:
+            self.dialogs.append(ImportAs(ImportSettings(path)))
+        else:
+            self.apply([Open(path)])
+
+    def start_fit(self, settings: ImportSettings) -> None:
+        """Begin to fit hyperquadrics to a file's points, in the background."""
+        self.release()
+        self.job = FitJob(settings, self.wake)
+        self.say(f"Fitting {settings.path.name}")
+
     def poll(self) -> None:
-        """Once a frame: tell how an export ended, keep copies of what is not saved, and go on with what plays."""
+        """Once a frame: tell how a job ended, keep copies of what is not saved, and go on with what plays."""
         self.player.advance(monotonic())
         fault = self.recovery.tick(self)
         if fault:
             self.complain(fault)
-        job = self.export
+        job = self.job
         if job is None or job.running:
             return
-        self.export = None
-        if job.outcome is None:
-            self.say("Export cancelled; nothing was written")
-        else:
-            self.dialogs.append(job.outcome)
-            self.say("Export failed" if isinstance(job.outcome, Problem) else f"Exported {job.settings.path.name}")
+        self.job = None
+        match job.outcome:
+            case None:
+                self.say(f"{job.noun} cancelled; {job.aftermath}")
+            case Problem():
+                self.dialogs.append(job.outcome)
+                self.say(f"{job.noun} failed")
+            case Exported():
+                self.dialogs.append(job.outcome)
+                self.say(f"Exported {job.settings.path.name}")
+            case Fitted():
+                self._take_in(job.outcome)
+
+    def _take_in(self, fitted: Fitted) -> None:
+        """What was fitted comes in place of a scene nobody has touched, else beside what there is."""
+        fresh = self.document.path is None and not self.history.labels
+        count = 0 if fresh else len(self.scene.shapes)
+
+        def change(scene: Scene) -> Scene:
+            return fitted.scene if fresh else reduce(edit.add_shape, fitted.scene.shapes, scene)
+
+        self.apply([Edit("Fit", change), Choose(tuple(range(count, count + len(fitted.scene.shapes))))])
+        self.cloud = fitted.cloud
+        if fresh:
+            self.frame(self.region)
+        self.say(fitted.told)
 
 
 def _lines(path: Path, error: OSError | files.PresetError) -> list[str]:

@@ -17,12 +17,14 @@ class View:
     """The camera and what the surface is coloured by.
 
     `cut`: the plane of a section view; what is on the side of its normal is not shown. `ghosts`: whether carving shapes are.
+    `bands`: whether the strips of a flat scene are.
     """
 
     camera: Camera = field(default_factory=Camera)
     mode: str = MODES[0]
     cut: Plane | None = None
     ghosts: bool = True
+    bands: bool = False
 
     def moved(self, camera: Camera) -> View:
         """The same seen from elsewhere."""

@@ -15,14 +15,14 @@ from hqmodel.files import settings_folder
 from hqmodel.gpu import Legend, Seen
 
 from . import layout, native, theme
-from .asks import ChooseFile, Open, Quit
+from .asks import ChooseFile, Quit
 from .canvas import Canvas
 from .dialogs import front
 from .form import Memory
 from .guard import Guard
 from .hands.hand import Hand
 from .intents import Intent, Release
-from .panels import menus, outliner, presets, properties, scene, slice_bar, status, timeline, viewport
+from .panels import landscape, menus, outliner, presets, properties, scene, slice_bar, status, timeline, viewport
 from .session import Session
 from .shelf import stocked
 from .thumbnails import Thumbnails
@@ -49,6 +49,7 @@ class Window:
         self._tree = outliner.Tree()
         self._slider = slice_bar.Slider()
         self._reel = timeline.Reel()
+        self.ground = landscape.Ground()
         self._shelf = stocked()
         self.hand = Hand()
         self.chooser = native.NativeChooser() if native_dialogs and native.available() else None
@@ -120,6 +121,7 @@ class Window:
             "Properties": lambda: properties.draw(session, memory),
             "Scene": lambda: scene.draw(session, memory),
             "Timeline": lambda: timeline.draw(session, self._reel),
+            "Landscape": lambda: landscape.draw(session, memory, self.ground),
             "Slice": lambda: slice_bar.draw(session, memory, self._slider),
         }
 
@@ -137,7 +139,7 @@ class Window:
         from imgui_bundle.glfw_utils import glfw_window_hello_imgui
 
         ctx = moderngl.create_context()
-        self._canvas = Canvas(ctx)
+        self.canvas = Canvas(ctx)
         self.thumbnails = Thumbnails(ctx)
         self.window = glfw_window_hello_imgui()
         glfw.set_drop_callback(self.window, self.dropped)  # type: ignore[arg-type]  # its stub has the C signature
@@ -153,7 +155,7 @@ class Window:
         session.poll()
         dropped, self._dropped = self._dropped, []
         if dropped:
-            session.apply([Open(dropped[0])])
+            session.take_file(dropped[0])
         self._restyle()
         self._retitle()
         self._shown.sync(self.params, session)
@@ -169,12 +171,12 @@ class Window:
         busy = imgui.is_any_item_active() or self.session.held is not None or self.hand.gizmo.before is not None
         if self.session.history.dragging and not busy:
             self.session.apply([Release()])
-        better = self._canvas.unfinished and self.session.refining
-        if self.thumbnails.waiting and not better and self._spare():
+        better = self.canvas.unfinished and self.session.refining
+        if self.thumbnails.waiting and not better and self.spare():
             self.guard.run("Thumbnails", self._thumbnail)
         # ImGui spreads keys pressed in quick succession over several frames, which a window at rest would not draw
         pressed = len(imgui.get_current_context().input_events_queue) > 0
-        under_way = self.session.export or self.session.player.running or self._choosing
+        under_way = self.session.job or self.session.player.running or self._choosing
         if better or pressed or under_way or self.thumbnails.waiting:
             hello_imgui.request_refresh()
 
@@ -191,7 +193,7 @@ class Window:
         dialogs = self.session.dialogs
         return self.chooser is not None and bool(dialogs) and isinstance(dialogs[-1], ChooseFile)
 
-    def _spare(self) -> float:
+    def spare(self) -> float:
         """The seconds that finer things than a draft may take of this frame: none while somebody is at work."""
         io = imgui.get_io()
         moved = io.mouse_delta.x, io.mouse_delta.y, io.mouse_wheel, io.mouse_wheel_h
@@ -203,17 +205,17 @@ class Window:
 
     def draw(self, size: tuple[int, int]) -> int:
         session = self.session
-        spare = self._spare() if session.refining else 0.0
-        texture = self._canvas.draw(session.shown, session.shown_view, size, spare, self.hand.lit)
-        session.located(session.shown, self._canvas.region)
+        spare = self.spare() if session.refining else 0.0
+        texture = self.canvas.draw(session.shown, session.shown_view, size, spare, self.hand.lit)
+        session.located(session.shown, self.canvas.region)
         return texture
 
     def seen(self, size: tuple[int, int], pixel: tuple[int, int]) -> Seen | None:
-        return self._canvas.pick(self.session.view, size, pixel)
+        return self.canvas.pick(self.session.view, size, pixel)
 
     @property
     def legend(self) -> Legend:
-        return self._canvas.legend
+        return self.canvas.legend
 
     def _thumbnail(self) -> Iterable[Intent]:
         self.thumbnails.work()

@@ -18,6 +18,8 @@ from .faces import Face, face, image_at
 from .frames import PLANES, frame_residual, nearest_frame, slice_range, turned_frame
 from .generators import FEWEST_TERMS, FRAMES, SOLIDS, make_frame
 from .intervals import box_bounds, relevant_terms, segment_bounds
+from .landscape import Landscape, landscape
+from .lines import bounding_lines
 from .plane import Plane
 from .radial import RadialSolution, approximate_radii, radial_solution
 from .rays import first_hits
@@ -35,6 +37,7 @@ __all__ = [
     "Curvature",
     "Evolved",
     "Face",
+    "Landscape",
     "Lattice",
     "NotStarShaped",
     "Plane",
@@ -42,6 +45,7 @@ __all__ = [
     "Region",
     "Terms",
     "approximate_radii",
+    "bounding_lines",
     "box_bounds",
     "curvature",
     "face",
@@ -50,6 +54,7 @@ __all__ = [
     "gradient",
     "image_at",
     "images",
+    "landscape",
     "lattice_search",
     "linear_to_srgb",
     "log_gradient",

@@ -14,11 +14,12 @@ from hqmodel.model import Scene
 from .bodies import Array, Bodies
 from .cloud import FitError, Frame, prepared
 from .distance import distances
-from .lone import Step, Tell, lone_body
+from .lone import Step, lone_body
 from .parts import several_bodies
 from .scene import scene_of
 from .solve import Noise
 from .symmetry import mirrored_frame
+from .told import Tell, Told
 
 MOST_PARTS, MOST_STRIPS = 64, 32
 # As many as are made when nobody says how many.
@@ -32,7 +33,8 @@ class Report:
     """How the fit came about and how well it fits: distances are shares of the cloud's diagonal.
 
     `median`, `most` (of nine points in ten) and `largest` are of all points, outliers included; `noise` is the deviation of
-    those that are none, `outliers` the share of those that are.
+    those that are none, `outliers` the share of those that are. `symmetric` tells whether several parts were laid about a mirror
+    plane of the cloud.
     """
 
     points: int
@@ -81,22 +83,22 @@ def fit(
     Raises FitError, with one line, for numbers out of range and for points that are no surface of a body.
     """
     _check(parts, strips, tolerance)
-    tell = progress or _silent
+    tell = Told(progress or _silent)
     tell(0.0, "Looking at the points")
     rng = np.random.default_rng(seed)
     where = np.asarray(points, dtype=float)
     cloud = prepared(where, normals, rng)
+    frame = mirrored_frame(cloud) if parts != 1 else None
     if parts == 1:
         solution, steps = lone_body(cloud, strips, tolerance, rng, tell)
     else:
-        frame = mirrored_frame(cloud)
         cloud = cloud if frame is None else cloud.reframed(frame)
         most = AUTO_PARTS if parts == "auto" else parts
         solution, steps = several_bodies(cloud, most, strips, tolerance, rng, tell, frame is not None)
     tell(0.97, "Measuring")
-    residuals = _residuals(solution.bodies, cloud.frame, where)
+    residuals = _residuals(solution.bodies, cloud.frame, where, tell)
     tell(1.0, "Done")
-    report = _report(solution.bodies, solution.noise, cloud.frame, residuals, steps)
+    report = _report(solution.bodies, solution.noise, cloud.frame, residuals, steps, frame is not None)
     return Fit(scene_of(solution.bodies, cloud.frame), residuals, report)
 
 
@@ -113,15 +115,16 @@ def _check(parts: int | str, strips: int, tolerance: float) -> None:
         raise FitError(f"tolerance: expected a share of the diagonal from 1e-06 to 0.1, got {tolerance:g}")
 
 
-def _residuals(bodies: Bodies, frame: Frame, points: Array) -> Array:
+def _residuals(bodies: Bodies, frame: Frame, points: Array, tell: Told) -> Array:
     result = np.empty(len(points))
     for start in range(0, len(points), _CHUNK):
+        tell.again()
         here = slice(start, start + _CHUNK)
         result[here] = distances(bodies, frame.local(points[here])) * frame.size
     return result
 
 
-def _report(bodies: Bodies, noise: Noise, frame: Frame, residuals: Array, steps: Sequence[Step]) -> Report:
+def _report(bodies: Bodies, noise: Noise, frame: Frame, residuals: Array, steps: Sequence[Step], symmetric: bool) -> Report:
     median, most, largest = np.quantile(np.abs(residuals), (0.5, 0.9, 1.0)) / frame.size
     return Report(
         points=len(residuals),
@@ -133,6 +136,6 @@ def _report(bodies: Bodies, noise: Noise, frame: Frame, residuals: Array, steps:
         outliers=noise.outliers,
         parts=len(bodies),
         strips=len(bodies.owner),
-        symmetric=bool(bodies.mirrored.any()),
+        symmetric=symmetric,
         steps=tuple(steps),
     )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,12 +9,14 @@ import numpy as np
 from .bodies import Array, Bodies
 from .cloud import Cloud, beyond_hull, neighbours
 from .distance import distances
-from .solve import Evidence, Solution, solved
+from .solve import Evidence, Noise, Solution, solved
 from .starts import starts
+from .told import Told
 
-Tell = Callable[[float, str], None]
 # Points that starts are tried on, that strips are added by, and that the end is refined on.
 COARSE, MIDDLE, FINE = 500, 1500, 6000
+# A criterion lower by less than this speaks for nothing.
+WORTH = 2.0
 # How far off the surface the points are put that stand for normals.
 _LIFT = 0.01
 _HULL_POINTS = 300
@@ -70,10 +71,14 @@ class _Task:
     strips: int
     floor: float
     rng: np.random.Generator
-    tell: Tell
+    tell: Told
+
+    def solved(self, bodies: Bodies, evidence: Evidence, rounds: int, noise: Noise | None = None) -> Solution:
+        """The bodies moved, telling at every step."""
+        return solved(bodies, evidence, self.floor, rounds, noise, self.tell.again)
 
 
-def lone_body(cloud: Cloud, strips: int, floor: float, rng: np.random.Generator, tell: Tell) -> tuple[Solution, list[Step]]:
+def lone_body(cloud: Cloud, strips: int, floor: float, rng: np.random.Generator, tell: Told) -> tuple[Solution, list[Step]]:
     """The hyperquadric of at most so many strips that fits the cloud best, and how it came about.
 
     A strip stays when it lowers Schwarz's criterion, n ln(likelihood) against 5 numbers more, on a sample of `MIDDLE` points.
@@ -86,8 +91,9 @@ def lone_body(cloud: Cloud, strips: int, floor: float, rng: np.random.Generator,
         ends.append(_finished(task, start))
         if ends[-1][0].noise.sigma < _FOUND * floor:
             break
+    tell(0.9, "Refining")
     best, steps = min(ends, key=lambda end: _criterion(end[0], middle))
-    return solved(best.bodies, evidence_of(cloud, FINE, rng), floor, 40, pause=lambda: tell(0.9, "Refining")), steps
+    return task.solved(best.bodies, evidence_of(cloud, FINE, rng), 40), steps
 
 
 def _best_starts(task: _Task) -> list[Solution]:
@@ -97,14 +103,14 @@ def _best_starts(task: _Task) -> list[Solution]:
     every = starts(known.points[known.trusted], known.normals[known.trusted], task.strips, task.rng)
     for number, bodies in enumerate(every):
         task.tell(0.4 * number / len(every), "Trying starts")
-        begun.append(solved(bodies, task.coarse, task.floor, _FIRST))
+        begun.append(task.solved(bodies, task.coarse, _FIRST))
     begun.sort(key=lambda solution: _criterion(solution, task.coarse))
-    begun = [solved(start.bodies, task.coarse, task.floor, _SECOND, start.noise) for start in begun[: len(begun) // 3]]
+    begun = [task.solved(start.bodies, task.coarse, _SECOND, start.noise) for start in begun[: len(begun) // 3]]
     begun.sort(key=lambda solution: _criterion(solution, task.coarse))
     refined = []
     for number, solution in enumerate(begun[:_BEST]):
         task.tell(0.4 + 0.1 * number / _BEST, "Refining starts")
-        refined.append(solved(solution.bodies, task.middle, task.floor, 25))
+        refined.append(task.solved(solution.bodies, task.middle, 25))
     found = {round(_criterion(solution, task.middle)): solution for solution in refined}  # several come to the same
     return [found[criterion] for criterion in sorted(found)[:_GROWN]]
 
@@ -114,16 +120,16 @@ def _finished(task: _Task, start: Solution) -> tuple[Solution, list[Step]]:
     best, steps = start, [Step(f"{len(start.bodies.owner)} strips to begin with", 0.0)]
     while (count := len(best.bodies.owner)) < task.strips and (trial := _with_best_strip(task, best)):
         gain = _criterion(best, task.middle) - _criterion(trial, task.middle)
-        if gain <= 0:
+        if gain <= WORTH:
             break
         best = trial
         steps.append(Step(f"strip {count + 1} added", gain))
     for strip in reversed(range(len(best.bodies.owner))):
         if len(best.bodies.owner) == 3:
             break
-        trial = solved(best.bodies.without_strip(strip), task.middle, task.floor, 15, best.noise)
+        trial = task.solved(best.bodies.without_strip(strip), task.middle, 15, best.noise)
         gain = _criterion(best, task.middle) - _criterion(trial, task.middle)
-        if gain > 0:
+        if gain > WORTH:
             best = trial
             steps.append(Step("strip dropped", gain))
     return best, steps
@@ -132,11 +138,11 @@ def _finished(task: _Task, start: Solution) -> tuple[Solution, list[Step]]:
 def _with_best_strip(task: _Task, best: Solution) -> Solution | None:
     """The best of several ways to add a strip, if there are any."""
     part = task.cloud.part(MIDDLE)
-    tried = [solved(bodies, task.middle, task.floor, 12) for bodies in with_one_more(part.only(part.trusted), best)]
+    tried = [task.solved(bodies, task.middle, 12) for bodies in with_one_more(part.only(part.trusted), best)]
     if not tried:
         return None
     trial = min(tried, key=lambda solution: _criterion(solution, task.middle))
-    return solved(trial.bodies, task.middle, task.floor, 25, trial.noise)
+    return task.solved(trial.bodies, task.middle, 25, trial.noise)
 
 
 def with_one_more(cloud: Cloud, solution: Solution, body: int = 0) -> list[Bodies]:

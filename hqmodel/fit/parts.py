@@ -13,10 +13,11 @@ from scipy.spatial import cKDTree
 from .bodies import FLIP, Array, Bodies, joined
 from .cloud import Cloud
 from .distance import distances, strengths
-from .lone import MIDDLE, Step, Tell, lifted, with_one_more
+from .lone import MIDDLE, WORTH, Step, lifted, with_one_more
 from .occupancy import sides
-from .solve import Evidence, Solution, solved
+from .solve import Evidence, Noise, Solution, solved
 from .starts import held, principal_axes
+from .told import Told
 
 # Surface points that parts are tried on and refined on, and points on either side of it.
 _TRIED, _REFINED, _SIDES = 1500, 4000, 1500
@@ -46,6 +47,11 @@ class _Task:
     symmetric: bool
     strips: int
     floor: float
+    tell: Told
+
+    def solved(self, bodies: Bodies, evidence: Evidence, rounds: int, noise: Noise | None = None) -> Solution:
+        """The bodies moved, telling at every step."""
+        return solved(bodies, evidence, self.floor, rounds, noise, self.tell.again)
 
     def sample(self, count: int) -> Cloud:
         """Some of the cloud's trusted points; of a symmetric one every other is the image of the one before."""
@@ -65,7 +71,7 @@ class _Task:
 
 
 def several_bodies(
-    cloud: Cloud, parts: int, strips: int, floor: float, rng: np.random.Generator, tell: Tell, symmetric: bool
+    cloud: Cloud, parts: int, strips: int, floor: float, rng: np.random.Generator, tell: Told, symmetric: bool
 ) -> tuple[Solution, list[Step]]:
     """At most so many hyperquadrics, of at most so many strips each, that together fit the cloud; and how they came about.
 
@@ -74,37 +80,42 @@ def several_bodies(
     """
     cloud = cloud.only(cloud.trusted)
     outside, inside = sides(cloud.points, _SIDES // (2 if symmetric else 1), rng)
-    task = _Task(cloud, outside, inside, symmetric, strips, floor)
+    task = _Task(cloud, outside, inside, symmetric, strips, floor, tell)
     small = task.evidence(_TRIED)
-    best = _begun(task, small, parts, rng, tell)
+    best = _begun(task, small, parts, rng)
     steps = [Step(f"{_count(best.bodies)} parts to begin with", 0.0)]
+    best = _with_strips(task, small, _changed(task, small, best, parts, steps), steps)
+    tell(0.9, "Refining")
+    return task.solved(best.bodies, task.evidence(_REFINED), 30, best.noise), steps
+
+
+def _changed(task: _Task, small: Evidence, best: Solution, parts: int, steps: list[Step]) -> Solution:
+    """With parts split, added and dropped as long as it gains anything."""
     for turn in range(2 * parts):
-        tell(0.2 + 0.5 * turn / (2 * parts), f"{_count(best.bodies)} parts")
+        task.tell(0.2 + 0.22 * turn / parts, f"{_count(best.bodies)} parts")
         trial, what = _best_way(task, small, best, parts)
         gain = _criterion(best, small) - _criterion(trial, small)
-        if gain <= 0:
+        if gain <= WORTH:
             break
         best = trial
         steps.append(Step(what, gain))
-    best = _with_strips(task, small, best, steps, tell)
-    tell(0.9, "Refining")
-    return solved(best.bodies, task.evidence(_REFINED), floor, 30, best.noise), steps
+    return best
 
 
-def _begun(task: _Task, small: Evidence, parts: int, rng: np.random.Generator, tell: Tell) -> Solution:
+def _begun(task: _Task, small: Evidence, parts: int, rng: np.random.Generator) -> Solution:
     """The best of several ways to part the points into compact groups, each a body."""
     points = _folded(task, task.sample(_TRIED).points)
     inside = _folded(task, task.inside)
-    found = [solved(_body(task, points), small, task.floor, 20)]
+    found = [task.solved(_body(task, points), small, 20)]
     for turn in range(_BEGINNINGS):
-        tell(0.02 + 0.18 * turn / _BEGINNINGS, "Trying partitions")
+        task.tell(0.02 + 0.18 * turn / _BEGINNINGS, "Trying partitions")
         within = inside if turn % 2 else inside[:0]
         groups = max(2, round(parts * (0.65 if task.symmetric else 1.0) * (1.0, 0.75, 0.5)[turn % 3]))
         label = kmeans2(np.concatenate([points, within]), groups, minit="++", rng=rng)[1][: len(points)]
         bodies = [_body(task, points[label == group]) for group in range(groups) if np.sum(label == group) >= _FEWEST]
         together = joined(bodies)
         if _count(together) <= parts:
-            found.append(solved(together, small, task.floor, 20))
+            found.append(task.solved(together, small, 20))
     return min(found, key=lambda solution: _criterion(solution, small))
 
 
@@ -114,11 +125,11 @@ def _best_way(task: _Task, small: Evidence, best: Solution, parts: int) -> tuple
     if _count(best.bodies) >= parts:
         points = task.sample(_TRIED).points
         least = int(np.argmin(np.bincount(np.argmax(strengths(best.bodies, points), axis=0), minlength=len(best.bodies))))
-        base, before = solved(joined(best.bodies.others(least)), small, task.floor, 8), f"part {least + 1} dropped, "
+        base, before = task.solved(joined(best.bodies.others(least)), small, 8), f"part {least + 1} dropped, "
     ways = [(bodies, before + what) for what, bodies in _ways(task, base) if _count(bodies) <= parts]
-    tried = [(solved(bodies, small, task.floor, 8), what) for bodies, what in ways] + [(base, before)]
+    tried = [(task.solved(bodies, small, 8), what) for bodies, what in ways] + [(base, before)]
     tried.sort(key=lambda pair: _criterion(pair[0], small))
-    refined = [(solved(solution.bodies, small, task.floor, 20, solution.noise), what) for solution, what in tried[:2]]
+    refined = [(task.solved(solution.bodies, small, 20, solution.noise), what) for solution, what in tried[:2]]
     return min(refined, key=lambda pair: _criterion(pair[0], small))
 
 
@@ -178,7 +189,7 @@ def _settled(points: Array, label: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 
 def _group(task: _Task, points: Array, away: Array, sigma: float) -> Array:
-    """The connected points (n, 3) that lie farthest out, together."""
+    """The largest group of connected points (n, 3) that lie too far out."""
     far = points[away > max(3 * sigma, 0.004)]
     if task.symmetric:
         far = far[far[:, 0] >= 0]
@@ -203,7 +214,7 @@ def _body(task: _Task, points: Array, sign: float = 1.0) -> Bodies:
     return replace(body, hardness=chosen[0], sign=chosen[1], mirrored=chosen[2], widest=widest)
 
 
-def _with_strips(task: _Task, small: Evidence, best: Solution, steps: list[Step], tell: Tell) -> Solution:
+def _with_strips(task: _Task, small: Evidence, best: Solution, steps: list[Step]) -> Solution:
     """With strips added to the worst bodies as long as they earn their place."""
     sample = task.sample(_TRIED)
     given_up = np.zeros(len(best.bodies), dtype=bool)
@@ -216,11 +227,11 @@ def _with_strips(task: _Task, small: Evidence, best: Solution, steps: list[Step]
         given_up[body] = True
         if count >= task.strips or len(own.points) < _FEWEST:
             continue
-        tell(0.65 + 0.25 * given_up.mean(), "Adding strips")
-        tried = [solved(bodies, small, task.floor, 8, best.noise) for bodies in with_one_more(own, best, body)]
+        task.tell(0.65 + 0.25 * given_up.mean(), "Adding strips")
+        tried = [task.solved(bodies, small, 8, best.noise) for bodies in with_one_more(own, best, body)]
         trial = min(tried, key=lambda solution: _criterion(solution, small))
         gain = _criterion(best, small) - _criterion(trial, small)
-        if gain > 0:
+        if gain > WORTH:
             best = trial
             given_up[body] = False
             steps.append(Step(f"part {body + 1} with {count + 1} strips", gain))

@@ -121,8 +121,8 @@ def solved(
     evidence: Evidence,
     floor: float,
     rounds: int,
-    noise: Noise | None = None,
-    pause: Callable[[], None] | None = None,
+    noise: Noise | None,
+    pause: Callable[[], None],
 ) -> Solution:
     """The bodies moved, by at most so many steps, to where the evidence is most likely.
 
@@ -134,8 +134,7 @@ def solved(
     measured = evidence.measured(bodies)
     miss = evidence.misses(measured.distance)
     for _ in range(rounds):
-        if pause:
-            pause()
+        pause()
         noise = noise.updated(miss[:count], floor, evidence.outliers)
         cost = evidence.cost(noise, miss)
         rows = measured.rows()

@@ -14,7 +14,7 @@ from .starts import principal_axes
 # Points that planes are tried on, and rounds that one is moved to where it fits best.
 _POINTS, _ROUNDS = 3000, 8
 # A mirrored point may be so many times further from the cloud than the cloud's points are from each other.
-_NEAR = 1.5
+_NEAR = 1.25
 # A plane within so much of one of the world's is that one: the sine of the angle, and the distance as a share of the diagonal.
 _WORLD = 0.01
 
@@ -35,7 +35,7 @@ def mirrored_frame(cloud: Cloud) -> Frame | None:
 
 def _settled(points: Array, tree: cKDTree, normal: Array) -> tuple[Array, float]:
     """The plane normal . x = at near a first guess about which points pair best with the images of others."""
-    at = float(np.median(points @ normal))
+    at = float(np.mean(points @ normal))
     for _ in range(_ROUNDS):
         distance, number = tree.query(_reflected(points, normal, at))
         good = distance <= np.quantile(distance, 0.8)

@@ -83,7 +83,7 @@ def change_save_reopen_export(hands: Hands) -> None:
     hands.click("//Export/##reduced")
     hands.type_value("//Export/##target faces", 1500)
     hands.click("//Export/Export")
-    hands.wait(lambda: hands.session.export is None and bool(hands.session.dialogs))
+    hands.wait(lambda: hands.session.job is None and bool(hands.session.dialogs))
     told = hands.session.dialogs[-1]
     assert isinstance(told, Exported), told
     body = trimesh.load_mesh(hands.folder / "clay.obj")
@@ -101,12 +101,12 @@ def an_export_can_be_stopped(hands: Hands) -> None:
     hands.type_value("//Export/##resolution", 1024)
     hands.type_value("//Export/##file", str(hands.folder / "large.ply"))
     hands.click("//Export/Export")
-    assert session.export is not None
+    assert session.job is not None
     hands.drag(f"{PROPERTIES}##shapes[0].strips[0].gamma", 30)
     assert session.history.labels == ["Exponent"]
     assert not session.dialogs
     hands.click("//StatusBar/Stop")
-    hands.wait(lambda: session.export is None)
+    hands.wait(lambda: session.job is None)
     assert session.message == "Export cancelled; nothing was written"
     assert [path for path in hands.folder.iterdir() if "large" in path.name] == []
 

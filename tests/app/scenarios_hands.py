@@ -419,7 +419,7 @@ def first_session(hands: Hands) -> None:
     ]
     for action in actions:
         action()
-    hands.wait(lambda: session.export is None and bool(session.dialogs))
+    hands.wait(lambda: session.job is None and bool(session.dialogs))
     assert [len(shape.strips) for shape in session.scene.shapes] == [4, 3]
     assert session.scene.shapes[1].hardness == 3
     assert session.scene.shapes[1].transform.translation == (1.2, 0, 0)

@@ -22,10 +22,10 @@ def session() -> Session:
 
 
 def ended(session: Session) -> None:
-    assert session.export is not None
-    session.export.wait(60)
+    assert session.job is not None
+    session.job.wait(60)
     session.poll()
-    assert session.export is None
+    assert session.job is None
 
 
 def test_an_export_writes_the_body_and_reports_it(session: Session, tmp_path: Path) -> None:
@@ -92,8 +92,8 @@ def test_quitting_stops_it(session: Session, tmp_path: Path) -> None:
     session.start_export(ExportSettings(tmp_path / "ball.obj", resolution=256))
     session.apply([Do("quit")])
     assert session.finished
-    assert session.export is not None
-    assert not session.export.running
+    assert session.job is not None
+    assert not session.job.running
     assert list(tmp_path.iterdir()) == []
 
 

@@ -15,7 +15,7 @@ from ..panels.status import ERROR, NOTICE
 from .buttons import buttons, entered
 
 _SIZE = 34.0, 16.0
-_VERBS = {"open": "Open", "save": "Save", "export": "Choose"}
+_VERBS = {"open": "Open", "save": "Save", "export": "Choose", "import": "Import"}
 
 
 def draw(dialog: Dialog) -> list[Intent]:
@@ -92,10 +92,10 @@ def _list(dialog: ChooseFile, found: Listing) -> tuple[ChooseFile | None, bool]:
 
 def _problem(dialog: ChooseFile) -> bool:
     """Whether there is nothing yet that could be taken."""
-    return not dialog.name.strip() or (dialog.purpose == "open" and not dialog.path.is_file())
+    return not dialog.name.strip() or (dialog.reading and not dialog.path.is_file())
 
 
 def _taken(dialog: ChooseFile) -> list[Intent]:
-    if dialog.purpose != "open" and dialog.path.exists() and not dialog.replacing:
+    if not dialog.reading and dialog.path.exists() and not dialog.replacing:
         return [Adjust(replace(dialog, replacing=True))]
     return [Answer(dialog.path)]

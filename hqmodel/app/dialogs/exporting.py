@@ -10,7 +10,7 @@ from typing import Literal, TypeVar
 import numpy as np
 from imgui_bundle import imgui
 
-from ..asks import ChooseFile, Dialog, ExportAs, Exported, ExportSettings, Unit, Up
+from ..asks import ChooseFile, Dialog, ExportAs, Exported, ExportSettings, Method, Unit, Up
 from ..intents import Adjust, Answer, Ask, Intent
 from ..panels.status import ERROR
 from .buttons import buttons
@@ -25,6 +25,16 @@ _UNITS: dict[Unit | Literal[""], str] = {
     "m": "Metres",
     "in": "Inches",
 }
+_METHODS: dict[Method, str] = {
+    "cubes": "Marching cubes: any body",
+    "radial": "Radial grid: star-shaped, quads with UVs",
+}
+# What most people want for a purpose: ending, unit, longest side, triangles at most.
+_PURPOSES: dict[str, tuple[str, Unit | None, float | None, int | None]] = {
+    "Blender": (".glb", None, None, None),
+    "3D printing": (".3mf", "mm", 80.0, None),
+    "Games": (".glb", "m", 1.0, 20_000),
+}
 _UPS: dict[Up | Literal[""], str] = {"z": "z up", "y": "y up"}
 _RESOLUTIONS = 16, 1024
 _FACES, _USUAL_FACES = (100, 1_000_000), 20_000
@@ -36,13 +46,17 @@ def draw(dialog: Dialog) -> list[Intent]:
 
     assert isinstance(dialog, ExportAs)
     settings = dialog.settings
+    settings = _purpose(settings)
     suffix = settings.path.suffix.lower()
     chosen = _combo("Format", suffix, FORMATS)
     if chosen != suffix:
         settings = replace(settings, path=settings.path.with_suffix(chosen))
     settings, browsing = _file(settings)
+    settings = replace(settings, method=_combo("Made by", settings.method, _METHODS))
     settings = _resolution(settings)
+    imgui.begin_disabled(settings.method == "radial")
     settings = _reduction(settings)
+    imgui.end_disabled()
     settings = _size(settings)
     usual = f"As usual for the format: {UP_AXIS.get(chosen, 'z')} up"
     settings = replace(settings, up=_combo("Up", settings.up or "", {"": usual, **_UPS}) or None)
@@ -50,8 +64,10 @@ def draw(dialog: Dialog) -> list[Intent]:
     problem = _problem(settings, list(FORMATS))
     if problem:
         imgui.text_colored(ERROR, problem)
+    else:
+        imgui.text_disabled((dialog.told(settings) if settings.method == "cubes" else "") or " ")
     pressed = buttons(["Export", "Cancel"], enabled=not problem)
-    changed: list[Intent] = [] if settings == dialog.settings else [Adjust(ExportAs(settings))]
+    changed: list[Intent] = [] if settings == dialog.settings else [Adjust(replace(dialog, settings=settings))]
     if browsing:
         return [*changed, Ask(ChooseFile("export", settings.path.parent, settings.path.name, (chosen,)))]
     if pressed == "Cancel":
@@ -87,6 +103,18 @@ def _figure(value: object) -> str:
     if parts.ndim == 2:
         return " to ".join(_figure(list(row)) for row in parts)
     return "(" + ", ".join(f"{float(part):.4g}" for part in parts) + ")" if parts.ndim == 1 else str(value)
+
+
+def _purpose(settings: ExportSettings) -> ExportSettings:
+    """Buttons that set everything as a purpose has it."""
+    _label("For")
+    for name, (suffix, unit, size, faces) in _PURPOSES.items():
+        if imgui.button(name):
+            path = settings.path.with_suffix(suffix)
+            settings = ExportSettings(path, settings.resolution, unit=unit, size=size, target_faces=faces)
+        imgui.same_line()
+    imgui.new_line()
+    return settings
 
 
 def _label(text: str) -> None:

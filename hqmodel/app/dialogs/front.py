@@ -6,10 +6,24 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
-from ..asks import About, ChooseFile, Dialog, ExportAs, Exported, Overwrite, Palette, Problem, Recover, Shortcuts, Tour, Unsaved
+from ..asks import (
+    About,
+    ChooseFile,
+    Dialog,
+    ExportAs,
+    Exported,
+    ImportAs,
+    Overwrite,
+    Palette,
+    Problem,
+    Recover,
+    Shortcuts,
+    Tour,
+    Unsaved,
+)
 from ..intents import Answer, Ask, Intent
 from ..session import Session
-from . import about, chooser, exporting, palette, problem, recover, shortcuts, tour, unsaved
+from . import about, chooser, exporting, importing, palette, problem, recover, shortcuts, tour, unsaved
 from .buttons import untouched
 
 _DRAWN: dict[type[Dialog], Callable[[Dialog], list[Intent]]] = {
@@ -20,6 +34,7 @@ _DRAWN: dict[type[Dialog], Callable[[Dialog], list[Intent]]] = {
     Problem: problem.draw,
     ExportAs: exporting.draw,
     Exported: exporting.draw_report,
+    ImportAs: importing.draw,
     Palette: palette.draw,
     Shortcuts: shortcuts.draw,
     Tour: tour.draw,
@@ -54,7 +69,7 @@ def _title(dialog: Dialog) -> str:
         case Problem(title=title):
             return title
         case ChooseFile(purpose=purpose):
-            return {"open": "Open", "save": "Save As", "export": "Export To"}[purpose]
+            return {"open": "Open", "save": "Save As", "export": "Export To", "import": "Import"}[purpose]
         case Unsaved():
             return "Unsaved Changes"
         case Overwrite():
@@ -63,6 +78,8 @@ def _title(dialog: Dialog) -> str:
             return "Unsaved Work Found"
         case ExportAs():
             return "Export"
+        case ImportAs():
+            return "Fit"
         case Exported():
             return "Exported"
         case Palette():

@@ -14,21 +14,30 @@ Row = tuple[str, str]
 
 _MOUSE: dict[str, tuple[Row, ...]] = {
     "Mouse": (
-        ("Orbit", "Middle drag, Alt + left drag"),
+        ("Orbit", "Middle drag, drag beside the body"),
         ("Pan", "Right drag, Shift + middle drag"),
         ("Zoom to the pointer", "Wheel"),
-        ("Zoom", "Ctrl + middle drag, Alt + right drag"),
+        ("Zoom", "Ctrl + middle drag"),
+        ("As in Maya", "Alt + any button"),
         ("Orbit, pan on a trackpad", "Two fingers sideways, with Shift"),
         ("Select", "Click, Ctrl + click for several"),
+    ),
+    "Clay": (
+        ("Push a face", "Drag it, Tab for another way"),
+        ("Tilt, soften a face", "Click it, drag its ring, diamond"),
+        ("A face's exponent", "Ctrl + wheel over it"),
+        ("Remove a face", "Drag it out of the body"),
+        ("While dragging", "Shift fine, Ctrl snaps, Esc back"),
+        ("Be exact", "Type a number while dragging"),
     ),
     "Sliders": (
         ("Type a number", "Ctrl + click"),
         ("Back to the default", "Double click"),
-        ("Reset, copy the path", "Right click"),
+        ("Reset, animate", "Right click"),
     ),
 }
 # The widths of a label and of its keys, in those of the font; and the share of the window that the sheet may take.
-_WIDTHS, _GAP, _SHARE = (12.0, 15.5), 1.5, 0.86
+_WIDTHS, _GAP, _SHARE = (10.0, 13.8), 1.2, 0.95
 
 
 def draw(dialog: Dialog) -> list[Intent]:
@@ -38,7 +47,7 @@ def draw(dialog: Dialog) -> list[Intent]:
     column = (sum(_WIDTHS) + _GAP) * em
     columns = _columns(groups, max(1, int(_SHARE * view.x / column)))
     longest = max(_height(groups, names) for names in columns) * imgui.get_text_line_height_with_spacing()
-    room = _SHARE * view.y - 5 * imgui.get_frame_height_with_spacing()
+    room = _SHARE * view.y - 4 * imgui.get_frame_height_with_spacing()
     width = len(columns) * column + (imgui.get_style().scrollbar_size if longest > room else 0)
     if imgui.begin_child("sheet", (width, min(longest, room))):
         for number, names in enumerate(columns):

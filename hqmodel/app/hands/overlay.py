@@ -44,6 +44,13 @@ class Pen:
         if len(points) > 2 and np.all(np.isfinite(points)):
             self._list.add_convex_poly_filled([self._at(point) for point in points], imgui.get_color_u32(color))
 
+    def dots(self, points: NDArray[np.float64], color: Color) -> None:
+        """A small square at each pixel (n, 2)."""
+        ink, half = imgui.get_color_u32(color), 1.0
+        left, top = self._corner.x, self._corner.y
+        for x, y in points.tolist():
+            self._list.add_rect_filled((left + x - half, top + y - half), (left + x + half, top + y + half), ink)
+
     def shaded(self, low: tuple[float, float], high: tuple[float, float], top: Sequence[int], bottom: Sequence[int]) -> None:
         """A rectangle from its upper left to its lower right pixel, from one sRGB colour (0 to 255) to another downwards."""
         above, below = (imgui.get_color_u32((r / 255, g / 255, b / 255, 1.0)) for r, g, b in (top, bottom))

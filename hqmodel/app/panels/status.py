@@ -48,10 +48,12 @@ def notice(session: Session) -> str:
 
 def _export(session: Session) -> list[Intent]:
     """Progress and a way out, while an export is on its way."""
-    job = session.export
+    job = session.job
     if job is None:
         return []
-    imgui.progress_bar(job.progress, (imgui.get_font_size() * 14, 0), f"{job.stage} {job.progress:.0%}")
+    rest = job.remaining
+    left = "" if rest is None else f", {rest:.0f} s left"
+    imgui.progress_bar(job.progress, (imgui.get_font_size() * 18, 0), f"{job.stage} {job.progress:.0%}{left}")
     imgui.same_line()
     stopped = imgui.small_button("Stop")
     imgui.same_line()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from imgui_bundle import imgui
 
-from ..hands import gizmo, legend, overlay, toolbar
+from ..hands import bands, cloud, gizmo, legend, overlay, toolbar
 from ..hands.hand import Hand, Picture, free
 from ..hands.holding import holding
 from ..intents import Intent, Resize
@@ -30,6 +30,9 @@ def draw(session: Session, hand: Hand, picture: Picture) -> list[Intent]:
         imgui.set_item_key_owner(imgui.Key.mouse_wheel_x)
         intents += holding(hand, session.held) if session.held else free(session, hand, picture, aim, corner)
     pen = overlay.Pen(corner, points)
+    if session.cloud is not None and not session.cloud_hidden:
+        cloud.draw(pen, aim, session.cloud)
+    bands.draw(session, aim, pen)
     overlay.draw(session, hand, aim, pen)
     if session.view.mode == "curvature":
         legend.scale(pen, picture.legend, points)

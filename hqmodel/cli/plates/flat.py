@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image, ImageDraw
 
-from hqmodel.field import Terms, mixed_colors
+from hqmodel.field import Terms, bounding_lines, mixed_colors
 from hqmodel.model import Scene
 from hqmodel.outline import Outline
 
@@ -95,11 +95,8 @@ def strips(scene: Scene) -> list[tuple[Array, float]]:
 def draw_strip(draw: ImageDraw.ImageDraw, window: Window, normal: Array, offset: float, filled: bool = True) -> None:
     """A strip's two bounding lines, and what lies between them shaded."""
     fine = window.finer()
-    size = float(np.linalg.norm(normal))
-    across, along = normal / size, np.array([-normal[1], normal[0]]) / size
     far = 4 * window.half * max(1.0, window.size[0] / window.size[1])
-    foot = window.middle - across * (across @ window.middle)
-    edges = [fine.pixels(foot + across * ((side - offset) / size) + along * np.array([[-far], [far]])) for side in (-1, 1)]
+    edges = [fine.pixels(line) for line in bounding_lines(normal, offset, window.middle, far)]
     if filled:
         draw.polygon([*edges[0], *reversed(edges[1])], fill=(*_BAND, 70))
     for edge in edges:

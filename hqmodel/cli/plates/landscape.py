@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
-from hqmodel.field import Terms, mixed_colors, value
+from hqmodel.field import Terms, landscape, mixed_colors
 from hqmodel.model import Camera, Scene
 from hqmodel.outline import Outline
 
@@ -24,8 +24,6 @@ Array = NDArray[np.float64]
 
 # Squares of land along a side, and how much higher than wide the land is drawn.
 _SQUARES, _STEEP = 88, 0.7
-# Land no higher than this is not looked for beyond the lowest section.
-_FLAT = 0.003
 _VIEW = Camera(azimuth=24.0, elevation=34.0, orthographic=True)
 _LIGHT = np.array([-0.45, -0.35, 0.82])
 _PLANE, _CURVE = (70, 96, 130, 96), (30, 42, 60)
@@ -75,11 +73,8 @@ def draw_landscape(land: Land, level: float, section: Outline, size: Size) -> Im
 def land_of(scene: Scene, low: Array, high: Array) -> Land:
     """The landscape of the scene's sum, over the rectangle from low to high (2,) and as far about it as the land is not flat."""
     terms = replace(Terms.of(scene), level=0.0)
-    wide = _nodes(terms, low - (high - low), high + (high - low)).reshape(-1, 3)
-    uneven = wide[np.abs(wide[:, 2]) > _FLAT, :2]
-    low, high = np.min([low, np.min(uneven, axis=0)], axis=0), np.max([high, np.max(uneven, axis=0)], axis=0)
-    nodes = _nodes(terms, low, high)
-    corners = np.stack([nodes[:-1, :-1], nodes[1:, :-1], nodes[1:, 1:], nodes[:-1, 1:]], axis=2).reshape(-1, 4, 3)
+    found = landscape(scene, _SQUARES, low, high)
+    low, high, corners = found.low, found.high, found.squares()
     land = Land(low, high, corners, np.empty(0))
     steep = np.array([1.0, 1.0, land.steep])
     normal = np.cross((corners[:, 2] - corners[:, 0]) * steep, (corners[:, 3] - corners[:, 1]) * steep)
@@ -90,13 +85,6 @@ def land_of(scene: Scene, low: Array, high: Array) -> Land:
     colors = (np.array(GROUND) * (1 - risen) * 0.98 + own * risen) * (0.45 + 0.6 * light[:, None])
     order = np.argsort(middle[:, :2] @ _VIEW.axes()[2, :2], kind="stable")
     return replace(land, corners=corners[order], colors=np.clip(colors[order], 0, 255))
-
-
-def _nodes(terms: Terms, low: Array, high: Array) -> Array:
-    """Points (n, n, 3) of the land over a grid."""
-    x, y = (np.linspace(a, b, _SQUARES + 1) for a, b in zip(low, high, strict=True))
-    ground = np.stack([*np.meshgrid(x, y, indexing="ij"), np.zeros((len(x), len(y)))], axis=-1)
-    return np.concatenate([ground[..., :2], value(terms, ground)[..., None]], axis=-1)
 
 
 def pieces(land: Land, level: float, below: bool) -> Iterator[tuple[Array, tuple[int, ...]]]:

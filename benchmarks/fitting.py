@@ -1,0 +1,139 @@
+"""How well and how fast `hqmodel.fit` finds what is known.
+
+    python -m benchmarks.fitting [--shapes NAME ...] [--random N] [--starts N] [--clouds FILE ...] [--parts N ...] [--json FILE]
+
+Clouds of `--points` points of the convex reference shapes (or presets named) and of `--random` random ones, each clean, with
+noise, among outliers and seen from one side: the median radial error against the true surface as a share of the diagonal, the
+strips used, and seconds. `--starts`: how many of so many random starts alone, refined without any search, end at the truth of a
+clean cloud. `--clouds`: files of points or meshes, and how far their points are from fits of so many parts.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+from hqmodel.files import load
+from hqmodel.fit import fit, read
+from hqmodel.fit.cloud import prepared
+from hqmodel.fit.lone import evidence_of
+from hqmodel.fit.scene import scene_of
+from hqmodel.fit.solve import solved
+from hqmodel.fit.starts import held, random_sets
+from hqmodel.model import Scene
+
+from .fit_clouds import GOALS, KINDS, cloud, radial_errors, random_convex, reference_convex
+
+Row = dict[str, Any]
+_TOLERANCE = 2e-4
+
+
+def accuracy(scenes: dict[str, Scene], count: int, console: Console) -> list[Row]:
+    """Every kind of cloud of every scene, fitted."""
+    table = Table("shape", *KINDS, title=f"median radial error, % of the diagonal; strips; seconds ({count:,} points)")
+    rows = []
+    for name, scene in scenes.items():
+        for kind in KINDS:
+            with console.status(f"{name}, {kind}"):
+                rows.append({"shape": name, "kind": kind, **_measured(scene, kind, count)})
+        table.add_row(name, *[_cell(row) for row in rows[-len(KINDS) :]])
+    table.add_section()
+    table.add_row("goal", *[f"{GOALS[kind]:.1%}" for kind in KINDS])
+    table.add_row("reached", *[_reached([row for row in rows if row["kind"] == kind]) for kind in KINDS])
+    console.print(table)
+    return rows
+
+
+def random_starts(scenes: dict[str, Scene], tries: int, console: Console) -> list[Row]:
+    """How often a random start alone, of frames of 3, 4 and 6 strips in turn, ends at the truth of a clean cloud."""
+    table = Table("shape", "of random starts", title=f"within {GOALS['clean']:.1%} of the diagonal")
+    rows = []
+    for name, scene in scenes.items():
+        rng = np.random.default_rng(1)
+        points = prepared(cloud(scene, "clean", 2000, 1), None, rng)
+        evidence = evidence_of(points, 1500, rng)
+        errors = []
+        for directions in random_sets(6, rng, tries):
+            found = solved(held(points.points, directions, 3.0), evidence, _TOLERANCE, 40, None, _nothing)
+            errors.append(float(np.median(radial_errors(scene_of(found.bodies, points.frame), scene, 400))))
+        share = float(np.mean(np.array(errors) < GOALS["clean"]))
+        rows.append({"shape": name, "random starts": tries, "share": share})
+        table.add_row(name, f"{share:.0%}")
+    console.print(table)
+    return rows
+
+
+def parts(files: list[Path], counts: list[int], console: Console) -> list[Row]:
+    """Files fitted with several numbers of parts."""
+    table = Table(
+        "cloud", *[f"{count} parts" for count in counts], title="median / 90 % of distances, % of the diagonal; seconds"
+    )
+    rows = []
+    for path in files:
+        points, normals = read(path)
+        for count in counts:
+            with console.status(f"{path.name}, {count} parts"):
+                started = time.perf_counter()
+                report = fit(points, normals, parts=count).report.plain()
+                rows.append({"cloud": path.name, "most": count, "seconds": time.perf_counter() - started, **report})
+        cells = (f"{100 * row['median']:.2f} / {100 * row['most']:.2f}  {row['seconds']:.0f} s" for row in rows[-len(counts) :])
+        table.add_row(path.name, *cells)
+    console.print(table)
+    return rows
+
+
+def _measured(scene: Scene, kind: str, count: int) -> Row:
+    points = cloud(scene, kind, count, 1)
+    started = time.perf_counter()
+    found = fit(points, tolerance=_TOLERANCE)
+    seconds = time.perf_counter() - started
+    median, most = np.quantile(radial_errors(found.scene, scene), (0.5, 0.9))
+    return {"median": float(median), "most": float(most), "strips": found.report.strips, "seconds": seconds}
+
+
+def _cell(row: Row) -> str:
+    return f"{100 * row['median']:.3f}  {row['strips']}  {row['seconds']:.0f}"
+
+
+def _reached(rows: list[Row]) -> str:
+    return f"{sum(row['median'] < GOALS[row['kind']] for row in rows)} of {len(rows)}"
+
+
+def _nothing() -> None:
+    pass
+
+
+def main() -> int:
+    """The command line above."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.fitting", description="How well fits find what is known.")
+    parser.add_argument("--shapes", nargs="*", default=None, metavar="NAME")
+    parser.add_argument("--random", type=int, default=8, metavar="N")
+    parser.add_argument("--points", type=int, default=4000, metavar="N")
+    parser.add_argument("--starts", type=int, default=24, metavar="N")
+    parser.add_argument("--clouds", nargs="*", type=Path, default=[], metavar="FILE")
+    parser.add_argument("--parts", nargs="+", type=int, default=[1, 4, 8, 16], metavar="N")
+    parser.add_argument("--json", type=Path)
+    options = parser.parse_args()
+    console = Console()
+    scenes = reference_convex() if options.shapes is None else {name: load(name) for name in options.shapes}
+    scenes |= {f"random {seed}": random_convex(seed) for seed in range(options.random)}
+    rows = accuracy(scenes, options.points, console) if scenes else []
+    if options.starts and scenes:
+        rows += random_starts(scenes, options.starts, console)
+    if options.clouds:
+        rows += parts(options.clouds, options.parts, console)
+    if options.json:
+        options.json.write_text(json.dumps(rows, indent=1))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,84 @@
+"""What an export will come to, before it is begun: judged by a coarse mesh that is made in the background."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from io import BytesIO
+
+from hqmodel.model import Scene
+
+from .asks import ExportSettings
+
+# Cells along the longest side of the coarse mesh.
+COARSE = 48
+Kind = tuple[str, bool, bool]
+
+
+@dataclass(frozen=True)
+class Coarse:
+    """What the coarse mesh came to: triangles, bytes in the format, and its error as a share of its longest side."""
+
+    faces: int
+    size: int
+    error: float
+
+
+class Forecast:
+    """Tells of exports of one scene. `wake` is called, from another thread, when there is more to tell."""
+
+    def __init__(self, scene: Scene, wake: Callable[[], None] = lambda: None) -> None:
+        self._scene, self._wake = scene, wake
+        self._known: dict[Kind, Coarse | None] = {}
+        self._busy: threading.Thread | None = None
+
+    def told(self, settings: ExportSettings) -> str:
+        """About how many triangles, how large a file, how true; empty as long as that is not known."""
+        kind = settings.path.suffix.lower(), settings.colors, settings.normals
+        if kind not in self._known:
+            if self._busy is None or not self._busy.is_alive():
+                self._busy = threading.Thread(target=self._look, args=(kind,), daemon=True)
+                self._busy.start()
+            return ""
+        coarse = self._known[kind]
+        return "" if coarse is None else _told(coarse, settings)
+
+    def wait(self) -> None:
+        """Until what is being worked out is known."""
+        if self._busy is not None:
+            self._busy.join()
+
+    def _look(self, kind: Kind) -> None:
+        from hqmodel import mesh
+
+        suffix, colors, normals = kind
+        try:
+            body = mesh.polygonize(self._scene, COARSE)
+            longest = float((body.vertices.max(axis=0) - body.vertices.min(axis=0)).max())
+            shaded = replace(body, colors=body.colors if colors else None, normals=body.normals if normals else None)
+            stream = BytesIO()
+            mesh.write(mesh.fitted(shaded, suffix), stream, suffix)
+            self._known[kind] = Coarse(len(body.faces), len(stream.getvalue()), (body.surface_error or 0.0) / longest)
+        except mesh.MeshError:
+            self._known[kind] = None  # the export itself will say why
+        finally:
+            self._wake()
+
+
+def _told(coarse: Coarse, settings: ExportSettings) -> str:
+    """Triangles go with the square of the resolution, and so does a smooth surface's error."""
+    finer = settings.resolution / COARSE
+    every = coarse.faces * finer**2
+    faces = min(every, settings.target_faces or every)
+    size = coarse.size / coarse.faces * faces
+    error = coarse.error * coarse.faces / faces
+    return f"about {_short(faces)} triangles, {_short(size)}B, within {error:.2g} of the longest side"
+
+
+def _short(number: float) -> str:
+    """Two digits and a word that people know: 1.2 M."""
+    for unit, word in ((1e9, " G"), (1e6, " M"), (1e3, " k")):
+        if number >= unit:
+            return f"{number / unit:.2g}{word}" if number < 100 * unit else f"{number / unit:.0f}{word}"
+    return f"{number:.0f} "
