@@ -15,7 +15,7 @@ from .grid import BLOCK, Grid
 Blocks = NDArray[np.int64]
 
 # Cells along a side of a tile: what one job looks through with the terms that matter there.
-TILE = 128
+TILE = 64
 # Cells along a side of what is marched at once, so as to need little memory.
 PART = 64
 _HALVES = np.array(list(product((0, 1), repeat=3)))
