@@ -45,6 +45,7 @@ bench: system-run $(VENV)/.installed-for-benchmarks
 	$(BIN)/python -m benchmarks.accuracy --cells 128 --gamma 400
 	$(BIN)/python -m benchmarks.preview
 	$(BIN)/python -m benchmarks.solvers
+	$(BIN)/python -m benchmarks.fitting
 
 pictures: system-test $(VENV)/.installed
 	LIBGL_ALWAYS_SOFTWARE=1 xvfb-run -a -s "-screen 0 1400x900x24" $(BIN)/python docs/pictures.py

@@ -74,7 +74,7 @@ def random_starts(scenes: dict[str, Scene], tries: int, console: Console) -> lis
 def parts(files: list[Path], counts: list[int], console: Console) -> list[Row]:
     """Files fitted with several numbers of parts."""
     table = Table(
-        "cloud", *[f"{count} parts" for count in counts], title="median / 90 % of distances, % of the diagonal; seconds"
+        "cloud", *[f"parts: {count}" for count in counts], title="median / 90 % of distances, % of the diagonal; seconds"
     )
     rows = []
     for path in files:

@@ -14,6 +14,7 @@ from imgui_bundle import imgui
 
 from hqmodel import files
 from hqmodel.app import native
+from hqmodel.app.actions import HIDDEN
 from hqmodel.app.asks import Exported, Problem, Unsaved
 from hqmodel.app.intents import Do, Intent, Put, Select
 from hqmodel.app.panels import status
@@ -398,7 +399,7 @@ def a_fault_in_a_panel(hands: Hands) -> None:
 def panels_and_themes(hands: Hands) -> None:
     """Panels can be closed and come back; the light theme is kept for the next time."""
     session = hands.session
-    assert session.hidden_panels == {"Presets", "Timeline"}
+    assert session.hidden_panels == {"Presets", *HIDDEN}
     hands.menu("View/Panels/###panel Presets")
     hands.settle(5)
     assert shown(hands, "Presets")
@@ -409,10 +410,10 @@ def panels_and_themes(hands: Hands) -> None:
     assert files.Settings.read().preferences["theme"] == "light"
     hands.ctx.window_close("//Scene")
     hands.settle(3)
-    assert session.hidden_panels == {"Presets", "Scene", "Timeline"}
+    assert session.hidden_panels == {"Presets", "Scene", *HIDDEN}
     hands.menu("View/Panels/###reset layout")
     hands.settle(5)
-    assert session.hidden_panels == {"Timeline"}
+    assert session.hidden_panels == set(HIDDEN)
     assert shown(hands, "Scene")
     assert shown(hands, "Presets")
     for keys, dialog in ((Key.f1, "Shortcuts"), (None, "About hqmodel")):

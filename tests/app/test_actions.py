@@ -7,7 +7,7 @@ from collections import Counter
 import pytest
 
 from hqmodel import files
-from hqmodel.app.actions import ACTIONS, MENUS, RECENT, THEMES, Entry
+from hqmodel.app.actions import ACTIONS, HIDDEN, MENUS, RECENT, THEMES, Entry
 from hqmodel.app.asks import About, ChooseFile, ExportAs, Problem, Shortcuts
 from hqmodel.app.intents import Do, Put, Select
 from hqmodel.app.session import Session
@@ -139,9 +139,9 @@ def test_an_unknown_theme_in_the_settings_is_the_first_one() -> None:
 
 def test_panels_hide_and_come_back(session: Session) -> None:
     session.apply([Do("panel Scene"), Do("panel Outliner")])
-    assert session.hidden_panels == {"Scene", "Outliner", "Timeline"}
+    assert session.hidden_panels == {"Scene", "Outliner", *HIDDEN}
     session.apply([Do("panel Scene"), Do("reset layout")])
-    assert session.hidden_panels == {"Timeline"}
+    assert session.hidden_panels == set(HIDDEN)
     assert session.layout_wanted
 
 
