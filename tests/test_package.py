@@ -14,7 +14,7 @@ import pytest
 import hqmodel
 
 ROOT = Path(__file__).parents[1]
-HEAVY = ("moderngl", "glfw", "imgui_bundle", "trimesh", "scipy")
+HEAVY = ("moderngl", "glfw", "imgui_bundle", "trimesh", "scipy", "numba")
 PUBLIC = ["Scene", "Shape", "Strip", "fit", "load", "polygonize", "render", "save"]
 
 

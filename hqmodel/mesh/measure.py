@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from hqmodel.field import Terms, log_ratio, near_linear_single
 
+from .compiled import compiled
 from .mesh import Array, Mesh, Triangles, crosses, lengths
 from .refine import to_surface
 
@@ -18,10 +19,19 @@ def depths(terms: Terms, vertices: Array, faces: Triangles, slopes: Array) -> ND
 
     `slopes` (V,) is how fast the near-linear field changes at each vertex.
     """
-    corners = [faces[:, i] for i in range(3)]
-    middles = np.stack([(x[corners[0]] + x[corners[1]] + x[corners[2]]) / 3 for x in vertices.T]).T
-    slope = (slopes[corners[0]] + slopes[corners[1]] + slopes[corners[2]]) / 3
-    return (near_linear_single(terms, log_ratio(terms, middles)) / np.maximum(slope, 1e-30)).astype(np.float32)
+    middles, slope = np.empty((3, len(faces))), np.empty(len(faces))
+    _average(np.ascontiguousarray(vertices), slopes, faces, middles, slope)
+    return (near_linear_single(terms, log_ratio(terms, middles.T)) / np.maximum(slope, 1e-30)).astype(np.float32)
+
+
+@compiled
+def _average(vertices: Array, slopes: Array, faces: Triangles, middles: Array, slope: Array) -> None:
+    """The faces' middles, (3, F), and their corners' slopes on average."""
+    for f in range(len(faces)):
+        a, b, c = faces[f, 0], faces[f, 1], faces[f, 2]
+        for i in range(3):
+            middles[i, f] = (vertices[a, i] + vertices[b, i] + vertices[c, i]) / 3
+        slope[f] = (slopes[a] + slopes[b] + slopes[c]) / 3
 
 
 def largest_distance(terms: Terms, vertices: Array, faces: Triangles, off: NDArray[np.float32], stride: float) -> float:
@@ -32,7 +42,8 @@ def largest_distance(terms: Terms, vertices: Array, faces: Triangles, off: NDArr
     if not len(faces):
         return 0.0
     count = min(len(faces), 200 + len(faces) // 1000)
-    worst = vertices[faces[np.argpartition(np.abs(off), -count)[-count:]]].mean(axis=1)
+    least = np.partition(np.abs(off), -count)[-count]
+    worst = vertices[faces[np.flatnonzero(np.abs(off) >= least)[:count]]].mean(axis=1)
     return float(np.max(lengths(to_surface(terms, worst, stride, rounds=6)[0] - worst)))
 
 
