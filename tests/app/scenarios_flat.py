@@ -24,6 +24,7 @@ def the_landscape(hands: Hands) -> None:
     hands.menu("View/Panels/###panel Landscape")
     hands.settle(3)
     hands.shoot("solid")
+    assert hands.window.ground.land is None, "a solid scene has none"
     session.hidden_panels |= {"Properties", "Scene"}
     session.apply([Open(files.find("fig17-two-hills"))])
     hands.settle(3)
@@ -46,6 +47,8 @@ def the_landscape(hands: Hands) -> None:
 def a_line_is_dragged(hands: Hands) -> None:
     """The bands of the strips are shown on demand; a bounding line follows the hand, the opposite one stays, in one step."""
     session = hands.session
+    session.apply([Do("bands")])
+    assert not session.view.bands, "a solid scene has none"
     session.apply([Open(files.find("fig05-bounding-triangle")), Look(Camera(orthographic=True).looking("top"))])
     session.frame(session.region)
     session.apply([Look(replace(session.view.camera, distance=2 * session.view.camera.distance))])
