@@ -314,6 +314,10 @@ def _switch_refining(session: Session) -> None:
     session.keep(session.settings.preferring(refining=not session.refining))
 
 
+def _switch_frame_time(session: Session) -> None:
+    session.keep(session.settings.preferring(frame_time=not session.frame_time))
+
+
 def _frame_all(session: Session) -> None:
     session.frame(session.region)
 
@@ -418,6 +422,7 @@ ACTIONS: dict[str, Action] = {
     },
     "ghosts": Action("Carving Shapes as Ghosts", _switch_ghosts, (), _always, lambda s: s.view.ghosts),
     "bands": Action("Bands", _switch_bands, (), _flat, lambda s: s.view.bands),
+    "frame time": Action("Frame Time", _switch_frame_time, (), _always, lambda s: s.frame_time),
     "refine": Action("Refine at Rest", _switch_refining, (), _always, _refining),
     "frame all": Action("Frame All", _frame_all, ("Home",)),
     "frame selected": Action("Frame Selected", _frame_selected, ("F", "Num .")),
@@ -465,6 +470,7 @@ MENUS: dict[str, tuple[Entry, ...]] = {
         "bands",
         "cloud",
         "refine",
+        "frame time",
         None,
         "frame all",
         "frame selected",

@@ -91,6 +91,7 @@ class Session:
         self.size = (800, 600)
         self.dialogs: list[Dialog] = []
         self.job: ExportJob | FitJob | None = None
+        self.exported: Exported | None = None
         self.cloud: Cloud | None = None
         self.cloud_hidden: bool = False
         self.hidden_panels = set(actions.HIDDEN)
@@ -145,6 +146,11 @@ class Session:
     def refining(self) -> bool:
         """Whether the picture gets better while nothing happens; a slow machine may do without."""
         return self.settings.preferences.get("refining") is not False
+
+    @property
+    def frame_time(self) -> bool:
+        """Whether the status bar tells how long frames take."""
+        return self.settings.preferences.get("frame_time") is True
 
     @property
     def region(self) -> Region:
@@ -412,7 +418,7 @@ class Session:
         """From now on this is the document, seen as it was saved or else from where all of it is seen."""
         self.document = document
         self.player.stop()
-        self.animation = None
+        self.animation = self.cloud = self.exported = None
         self._region = document.scene, region(document.scene)
         self.selection = Selection((0,)).within(document.scene)
         view = restored(document.scene.view)
@@ -476,6 +482,7 @@ class Session:
                 self.dialogs.append(job.outcome)
                 self.say(f"{job.noun} failed")
             case Exported():
+                self.exported = job.outcome
                 self.dialogs.append(job.outcome)
                 self.say(f"Exported {job.settings.path.name}")
             case Fitted():

@@ -107,7 +107,7 @@ class Window:
         callbacks.post_init = self._begin
         callbacks.pre_new_frame = self._before
         callbacks.show_menus = self._guarded("Menu", lambda: menus.draw(self.session))
-        callbacks.show_status = self._guarded("Status", lambda: status.draw(self.session))
+        callbacks.show_status = self._guarded("Status", lambda: status.draw(self.session, self.hand.point))
         callbacks.show_gui = self._guarded("Shortcuts", self._keys)
         callbacks.post_render_dockable_windows = self._after
         callbacks.confirm_exit = self._may_exit

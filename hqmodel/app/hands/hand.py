@@ -68,6 +68,11 @@ class Hand:
     gizmo: Gizmo = field(default_factory=Gizmo)
     _looked: tuple[Scene, View, tuple[int, int]] | None = None
 
+    @property
+    def point(self) -> tuple[float, float, float] | None:
+        """The point of the surface under the pointer."""
+        return None if self.under is None else self.under.point
+
     def grip(self, scene: Scene) -> Grip | None:
         """The plane under the pointer; none on the filled cut of a section view."""
         seen = self.under

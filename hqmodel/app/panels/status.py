@@ -11,14 +11,14 @@ ERROR = (0.95, 0.45, 0.4, 1.0)
 NOTICE = (0.95, 0.75, 0.35, 1.0)
 
 
-def draw(session: Session) -> list[Intent]:
-    """One line; the last thing said on the left, the counts on the right."""
+def draw(session: Session, point: tuple[float, float, float] | None = None) -> list[Intent]:
+    """One line; the last thing said on the left, on the right the counts and the `point` of the surface under the pointer."""
     intents = _export(session)
     if session.failed:
         imgui.text_colored(ERROR, session.message)
     else:
         imgui.text_unformatted(session.message)
-    note, counts = notice(session), summary(session)
+    note, counts = notice(session), f"{_pointed(point)}{summary(session)}{_frame_time(session)}"
     imgui.same_line()
     right = imgui.calc_text_size(counts).x + imgui.calc_text_size(note).x + 3 * imgui.get_style().item_spacing.x
     imgui.set_cursor_pos_x(max(imgui.get_cursor_pos_x(), imgui.get_window_width() - right))
@@ -32,7 +32,17 @@ def draw(session: Session) -> list[Intent]:
 def summary(session: Session) -> str:
     scene = session.shown
     shapes, strips = len(scene.shapes), scene.strip_count
-    return f"{shapes} shape{'s' * (shapes != 1)}   {strips} strip{'s' * (strips != 1)}   t = {scene.slice:.4g}"
+    exported = "" if session.exported is None else f"   {session.exported.report['faces']:,} triangles exported"
+    return f"{shapes} shape{'s' * (shapes != 1)}   {strips} strip{'s' * (strips != 1)}   t = {scene.slice:.4g}{exported}"
+
+
+def _pointed(point: tuple[float, float, float] | None) -> str:
+    return "" if point is None else "({:.3f}, {:.3f}, {:.3f})   ".format(*point)
+
+
+def _frame_time(session: Session) -> str:
+    """How long a frame takes, averaged over the last ones, when that is asked for."""
+    return f"   {1000 / max(imgui.get_io().framerate, 1e-3):.1f} ms a frame" if session.frame_time else ""
 
 
 def notice(session: Session) -> str:
