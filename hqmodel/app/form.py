@@ -127,9 +127,13 @@ class Form:
         """One of a few values, side by side, by their names."""
         self.label(label, help)
         value = edit.get(self.scene, location)
+        left = imgui.get_cursor_pos_x()
         for index, (name, option) in enumerate(options.items()):
             if index:
                 imgui.same_line()
+                if imgui.get_content_region_avail().x < imgui.calc_text_size(name).x + 2 * imgui.get_frame_height():
+                    imgui.new_line()
+                    imgui.set_cursor_pos_x(left)
             if imgui.radio_button(f"{name}##{place(location)}", value == option) and value != option:
                 self.intents.append(Put(location, option, label))
             _explained(help)

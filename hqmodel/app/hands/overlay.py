@@ -127,15 +127,16 @@ def _handles(pen: Pen, known: Handles, aim: Aim, part: str | None) -> None:
     colors = {name: LIT if part == name else ACCENT for name in ("push", "tilt", "exponent")}
     if len(known.face.polygon):
         pen.line(aim.pixel(known.face.polygon), (*ACCENT[:3], 0.8), 1.5, closed=True)
-    pen.line(known.ring, SHADE, 4.0, closed=True)
-    pen.line(known.ring, colors["tilt"], 2.0, closed=True)
+    size = known.scale
+    pen.line(known.ring, SHADE, 4.0 * size, closed=True)
+    pen.line(known.ring, colors["tilt"], 2.0 * size, closed=True)
     start, tip = known.arrow
-    pen.line(known.arrow, SHADE, 5.0)
-    pen.line(known.arrow, colors["push"], 3.0)
+    pen.line(known.arrow, SHADE, 5.0 * size)
+    pen.line(known.arrow, colors["push"], 3.0 * size)
     along = (tip - start) / max(float(np.hypot(*(tip - start))), 1e-6)
     aside = np.array([-along[1], along[0]])
-    pen.area(np.array([tip + 9 * along, tip + 6 * aside, tip - 6 * aside]), colors["push"])
-    diamond = known.middle + 7 * np.array([(1, 0), (0, 1), (-1, 0), (0, -1)])
+    pen.area(np.array([tip + 9 * size * along, tip + 6 * size * aside, tip - 6 * size * aside]), colors["push"])
+    diamond = known.middle + 7 * size * np.array([(1, 0), (0, 1), (-1, 0), (0, -1)])
     pen.area(diamond, colors["exponent"])
     pen.line(diamond, SHADE, 1.5, closed=True)
 

@@ -39,12 +39,16 @@ def draw(session: Session, corner: imgui.ImVec2) -> list[Intent]:
 def _settings(session: Session) -> list[Intent]:
     kit = session.kit
     if kit.tool == "faces":
-        for way in WAYS:
-            if imgui.radio_button(f"{_WAYS[way]}##way", kit.way == way) and way != kit.way:
-                return [Equip(replace(kit, way=way))]
-            imgui.same_line()
-        imgui.new_line()
-    elif kit.tool in _EXPONENTS:
+        imgui.set_next_item_width(9 * imgui.get_font_size())
+        chosen = kit.way
+        if imgui.begin_combo("##way", _WAYS[kit.way]):
+            for way in WAYS:
+                if imgui.selectable(_WAYS[way], way == kit.way)[0]:
+                    chosen = way
+            imgui.end_combo()
+        imgui.set_item_tooltip("What a push moves; Tab changes it while dragging.")
+        return [] if chosen == kit.way else [Equip(replace(kit, way=chosen))]
+    if kit.tool in _EXPONENTS:
         low, high = _EXPONENTS[kit.tool]
         imgui.set_next_item_width(9 * imgui.get_font_size())
         value = kit.pat if kit.tool == "pat" else kit.chop

@@ -17,14 +17,17 @@ from .grip import Grip, Vector
 from .sculpting import Push, Soften, Tilt, Way
 
 Part = Literal["push", "tilt", "exponent"]
-# All in pixels: where the arrow begins and ends, the ring's radius, and how near the pointer must be.
+# All in pixels of a screen of usual density: where the arrow begins and ends, the ring's radius, how near the pointer must be.
 _ARROW, _RING, _NEAR = (16.0, 64.0), 44.0, 8.0
 _CORNERS = 64
 
 
 @dataclass(frozen=True, eq=False)
 class Handles:
-    """Where the handles are seen: pixels (n, 2), and the ring's points in the world too, relative to the face's middle."""
+    """Where the handles are seen: pixels (n, 2), and the ring's points in the world too, relative to the face's middle.
+
+    `scale`: how many pixels one of a screen of usual density is.
+    """
 
     grip: Grip
     face: Face
@@ -32,17 +35,19 @@ class Handles:
     arrow: Array
     ring: Array
     arms: Array
+    scale: float = 1.0
 
     def at(self, pixel: Pixels) -> Part | None:
         """The handle under the pointer."""
-        if _distance(self.middle, pixel) < _NEAR + 2:
+        near = _NEAR * self.scale
+        if _distance(self.middle, pixel) < 1.2 * near:
             return "exponent"
         if (
             min(_distance(self.arrow[0] + share * (self.arrow[1] - self.arrow[0]), pixel) for share in np.linspace(0, 1, 9))
             < _NEAR
         ):
             return "push"
-        return "tilt" if self._nearest(pixel)[1] < _NEAR else None
+        return "tilt" if self._nearest(pixel)[1] < near else None
 
     def taken(self, part: Part, scene: Scene, aim: Aim, pixel: Pixels, way: Way) -> Gesture:
         """What a drag of that handle is."""
@@ -60,14 +65,14 @@ class Handles:
         return best, float(distances[best])
 
 
-def handles(scene: Scene, shape: int, strip: int, aim: Aim) -> Handles | None:
+def handles(scene: Scene, shape: int, strip: int, aim: Aim, scale: float = 1.0) -> Handles | None:
     """The handles of a strip, on that of its planes which faces the camera and bounds the shape; None behind the eye."""
     back = aim.camera.axes()[2]
     faces = {side: Grip(shape, strip, side, (0.0, 0.0, 0.0)).face(scene) for side in (1, -1)}
     side = max(faces, key=lambda side: (len(faces[side].polygon) > 0, float(faces[side].normal @ back)))
     face = faces[side]
     grip = Grip(shape, strip, side, _vector(face.middle))
-    width = aim.per_pixel(face.middle)
+    width = scale * aim.per_pixel(face.middle)
     across = np.cross(face.normal, np.eye(3)[int(np.argmin(np.abs(face.normal)))])
     across /= np.linalg.norm(across)
     up = np.cross(face.normal, across)
@@ -76,7 +81,7 @@ def handles(scene: Scene, shape: int, strip: int, aim: Aim) -> Handles | None:
     seen = aim.pixel(np.vstack([face.middle, *(face.middle + face.normal * end * width for end in _ARROW), face.middle + arms]))
     if not np.all(np.isfinite(seen)):
         return None
-    return Handles(grip, face, seen[0], seen[1:3], seen[3:], arms)
+    return Handles(grip, face, seen[0], seen[1:3], seen[3:], arms, scale)
 
 
 def _distance(at: Array, pixel: Pixels) -> float:
