@@ -13,6 +13,8 @@ from typing import BinaryIO
 
 # Links followed one by one, looking for /dev/stdout and its like.
 _LINKS = 8
+# A draft that was last written so many seconds before another is nobody's any more.
+_FORSAKEN = 3600.0
 
 
 @contextmanager
@@ -20,7 +22,7 @@ def atomic(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
     """A binary stream that becomes the file `path` when the block ends well, and nothing when it does not.
 
     After a crash at any moment the file is the old one or the new one, whole: the new one is written beside it, forced to the
-    disk and moved over it. A link is followed and stays; the permissions (and the owner, where one may) stay as they were. A
+    disk and moved over it; what a crash leaves beside it is removed by a later call. A link is followed and stays; the permissions (and the owner, where one may) stay as they were. A
     device, a pipe or what this process has open already (/dev/stdout) is written to directly. Raises OSError.
     """
     descriptor = _descriptor(path)
@@ -52,6 +54,7 @@ def atomic(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
         draft.unlink(missing_ok=True)
         raise
     _sync_folder(target.parent)
+    _sweep(target)
 
 
 def _descriptor(path: str | os.PathLike[str]) -> int | None:
@@ -98,3 +101,12 @@ def _sync_folder(path: Path) -> None:
         os.fsync(descriptor)
     finally:
         os.close(descriptor)
+
+
+def _sweep(written: Path) -> None:
+    """Remove the drafts that crashes left beside a file just written, by the clock of the disk they are on."""
+    with suppress(OSError):
+        now = written.stat().st_mtime
+        for draft in written.parent.glob(".hqmodel-*.tmp"):
+            if draft.is_file() and now - draft.stat().st_mtime > _FORSAKEN:
+                draft.unlink()

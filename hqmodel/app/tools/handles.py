@@ -44,7 +44,7 @@ class Handles:
             return "exponent"
         if (
             min(_distance(self.arrow[0] + share * (self.arrow[1] - self.arrow[0]), pixel) for share in np.linspace(0, 1, 9))
-            < _NEAR
+            < near
         ):
             return "push"
         return "tilt" if self._nearest(pixel)[1] < near else None
