@@ -22,8 +22,9 @@ def atomic(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
     """A binary stream that becomes the file `path` when the block ends well, and nothing when it does not.
 
     After a crash at any moment the file is the old one or the new one, whole: the new one is written beside it, forced to the
-    disk and moved over it; what a crash leaves beside it is removed by a later call. A link is followed and stays; the permissions (and the owner, where one may) stay as they were. A
-    device, a pipe or what this process has open already (/dev/stdout) is written to directly. Raises OSError.
+    disk and moved over it; what a crash leaves beside it a later call removes. A link is followed and stays; the permissions
+    (and the owner, where one may) stay as they were. A device, a pipe or what this process has open already (/dev/stdout) is
+    written to directly. Raises OSError.
     """
     descriptor = _descriptor(path)
     if descriptor is not None:

@@ -160,3 +160,13 @@ def test_what_is_open_already_is_written_on_and_not_replaced(tmp_path: Path) -> 
         log.write(b"tail\n")
     assert (tmp_path / "log").read_bytes() == b"head\nbody\ntail\n"
     assert left(tmp_path) == {"log"}
+
+
+def test_what_a_crash_left_is_removed_once_nobody_can_be_writing_it(tmp_path: Path) -> None:
+    forsaken, busy = tmp_path / ".hqmodel-0123456789abcdef.tmp", tmp_path / ".hqmodel-fedcba9876543210.tmp"
+    for draft in (forsaken, busy):
+        draft.write_bytes(b"half")
+    os.utime(forsaken, (0, 0))
+    with atomic(tmp_path / "a") as stream:
+        stream.write(b"new")
+    assert left(tmp_path) == {"a", busy.name}
