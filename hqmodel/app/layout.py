@@ -24,7 +24,7 @@ _SPLITS = (
     ("MainDockSpace", "LeftSpace", imgui.Dir.left, 0.2),
     ("MainDockSpace", "RightSpace", imgui.Dir.right, 0.34),
     ("LeftSpace", "LeftLowerSpace", imgui.Dir.down, 0.55),
-    ("MainDockSpace", "LowerSpace", imgui.Dir.down, 0.3),
+    ("MainDockSpace", "LowerSpace", imgui.Dir.down, 0.42),
     ("RightSpace", "RightLowerSpace", imgui.Dir.down, 0.5),
 )
 _PLAIN = imgui.internal.DockNodeFlagsPrivate_.no_window_menu_button | imgui.internal.DockNodeFlagsPrivate_.no_close_button

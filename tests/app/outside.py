@@ -104,4 +104,4 @@ class Outside:
             if found:
                 return found
             time.sleep(0.1)
-        raise AssertionError(f"waited {PATIENCE} seconds in vain")
+        raise AssertionError(f"waited {PATIENCE} seconds in vain; the title says {self.title()!r}")

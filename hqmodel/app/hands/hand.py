@@ -22,6 +22,7 @@ from ..tools.kit import TOUCHING
 from ..tools.sculpting import Soften
 from ..view import View
 from .gizmo import Gizmo
+from .keys import keyed
 
 # A press that moves no further than this, in pixels, is a click.
 STILL = 4.0
@@ -94,7 +95,7 @@ def free(session: Session, hand: Hand, picture: Picture, aim: Aim, corner: imgui
     if wanted := session.wanted_gesture:
         session.wanted_gesture = ""
         gesture = reach.modal(wanted, session.scene, session.selection, aim, hand.at)
-        return [Take(gesture)] if gesture else []
+        return [Take(gesture), Pull(keyed(Held(gesture)))] if gesture else []
     if hand.button is None:
         if imgui.is_item_hovered():
             scale = io.display_framebuffer_scale

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from imgui_bundle import imgui
 
 from ..intents import Drop, Intent, Pull, Release
-from ..tools.arranging import Arrange
 from ..tools.gesture import Held
 from .hand import NOTCH, Hand
+from .keys import keyed
 
 # What a pull counts while Shift is held.
 FINE = 0.1
-_DIGITS = "0123456789.-"
-_LETTERS = {"x": imgui.Key.x, "y": imgui.Key.y, "z": imgui.Key.z}
 
 
 def holding(hand: Hand, held: Held) -> list[Intent]:
@@ -22,7 +18,7 @@ def holding(hand: Hand, held: Held) -> list[Intent]:
     if imgui.is_key_pressed(imgui.Key.escape) or imgui.is_mouse_clicked(imgui.MouseButton_.right):
         _forget(hand)
         return [Drop()]
-    pulled = _keyed(_pulled(hand, held))
+    pulled = keyed(_pulled(hand, held))
     if _finished(hand):
         _forget(hand)
         return [Pull(pulled), Release()] if pulled != held else [Release()]
@@ -35,21 +31,6 @@ def _pulled(hand: Hand, held: Held) -> Held:
     fine = FINE if io.key_shift else 1.0
     moved = (io.mouse_wheel * NOTCH, 0.0) if hand.wheeling else (io.mouse_delta.x * fine, io.mouse_delta.y * fine)
     return held.pulled(moved, snap=io.key_ctrl and not hand.wheeling)
-
-
-def _keyed(held: Held) -> Held:
-    """Numbers typed; Tab for the other way of doing it; x, y and z for the axes."""
-    typed = held.typed + "".join(c for c in map(chr, imgui.get_io().input_queue_characters) if c in _DIGITS)
-    if imgui.is_key_pressed(imgui.Key.backspace):
-        typed = typed[:-1]
-    gesture = held.gesture
-    if imgui.is_key_pressed(imgui.Key.tab):
-        gesture = gesture.other()
-    if isinstance(gesture, Arrange):
-        for axis, key in _LETTERS.items():
-            if imgui.is_key_pressed(key, False):
-                gesture = gesture.locked(axis)
-    return replace(held, gesture=gesture, typed=typed)
 
 
 def _finished(hand: Hand) -> bool:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 
@@ -13,6 +15,11 @@ from ..intents import Do, Intent
 from ..session import Session
 
 _MODIFIERS = {"Ctrl": imgui.Key.mod_ctrl, "Shift": imgui.Key.mod_shift, "Alt": imgui.Key.mod_alt}
+_RELEASED = {
+    imgui.Key.mod_ctrl: (imgui.Key.left_ctrl, imgui.Key.right_ctrl),
+    imgui.Key.mod_shift: (imgui.Key.left_shift, imgui.Key.right_shift),
+    imgui.Key.mod_alt: (imgui.Key.left_alt, imgui.Key.right_alt),
+}
 _KEYS = {
     "Del": "delete",
     "Up": "up_arrow",
@@ -40,12 +47,27 @@ def shortcuts(session: Session) -> list[Intent]:
     """The actions whose keys were pressed; none while a dialog waits for its answer or the hand holds something."""
     if session.dialogs or session.held:
         return []
-    return [
-        Do(name)
-        for name, action in ACTIONS.items()
-        for keys in action.shortcuts
-        if imgui.shortcut(chord(keys), imgui.InputFlags_.route_global)
-    ]
+    with _quick_modifiers():
+        pressed = [
+            name
+            for name, action in ACTIONS.items()
+            for keys in action.shortcuts
+            if imgui.shortcut(chord(keys), imgui.InputFlags_.route_global)
+        ]
+    # Of several in one slow frame only one is meant for us: G and X are a move along x, not a move and a deletion.
+    return [Do(min(pressed, key=lambda name: not name.startswith("hold ")))] if pressed else []
+
+
+@contextmanager
+def _quick_modifiers() -> Iterator[None]:
+    """Modifiers that were let go in this frame count as held: in a slow frame the key they were pressed with comes with it."""
+    io = imgui.get_io()
+    before = io.key_mods
+    for modifier, keys in _RELEASED.items():
+        if any(imgui.is_key_released(key) for key in keys):
+            io.key_mods |= int(modifier)
+    yield
+    io.key_mods = before
 
 
 @cache
