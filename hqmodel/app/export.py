@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable
 from dataclasses import replace
 from time import perf_counter
+from typing import Any, BinaryIO, cast
 
 from hqmodel import files
 from hqmodel.model import Scene
@@ -29,9 +31,9 @@ class ExportJob(Job[Exported]):
         started = perf_counter()
         settings, suffix = self.settings, self.settings.path.suffix.lower()
         if settings.method == "radial":
-            body = mesh.radial_quads(self._scene, settings.resolution, self._report)
+            body = mesh.radial_quads(self._scene, settings.resolution, self._meshing)
         else:
-            body = mesh.polygonize(self._scene, settings.resolution, self._report, target_faces=settings.target_faces)
+            body = mesh.polygonize(self._scene, settings.resolution, self._meshing, target_faces=settings.target_faces)
         self._report(0.9, "Measuring")
         report = mesh.report(body)
         fitted = mesh.fitted(body, suffix, unit=settings.unit, size=settings.size, up=settings.up)
@@ -41,9 +43,12 @@ class ExportJob(Job[Exported]):
             fitted = replace(fitted, normals=None)
         self._report(0.95, "Writing")
         with files.atomic(settings.path) as stream:
-            mesh.write(fitted, stream, suffix, self._scene.name)
+            mesh.write(fitted, cast(BinaryIO, _Watched(stream, self._report)), suffix, self._scene.name)
             self._report(1.0, "Writing")
         return Exported(settings.path, perf_counter() - started, report)
+
+    def _meshing(self, share: float, doing: str) -> None:
+        self._report(0.9 * share, doing)
 
     def _faults(self) -> type[Exception]:
         from hqmodel.mesh import MeshError
@@ -52,3 +57,24 @@ class ExportJob(Job[Exported]):
 
     def _place(self) -> str:
         return str(self.settings.path)
+
+
+class _Watched(io.BufferedIOBase):
+    """A file that tells of every block written to it, so that even a long one can be stopped."""
+
+    def __init__(self, stream: BinaryIO, report: Callable[[float, str], None]) -> None:
+        self._stream = stream
+        self._report = report
+
+    def write(self, data: Any) -> int:
+        self._report(0.95, "Writing")
+        return self._stream.write(data)
+
+    def tell(self) -> int:
+        return self._stream.tell()
+
+    def seek(self, offset: int, whence: int = 0) -> int:
+        return self._stream.seek(offset, whence)
+
+    def flush(self) -> None:
+        self._stream.flush()

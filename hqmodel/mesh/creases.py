@@ -55,12 +55,13 @@ def creased(
     cell: float,
     planes: list[Plane],
     pinched: NDArray[np.bool_],
+    still: Callable[[], None],
 ) -> Creased | None:
     """The mesh with edges split at its creases; None where there are none.
 
     `normals` (V, 3) are the vertices', `off` (F,) is how far faces' middles are from the surface: those well on it are left
     alone, and edges between `pinched` vertices (V,), as more than two faces may meet there. Edges in one of the `planes` (axis,
-    coordinate) are split in it.
+    coordinate) are split in it. `still` is called now and then; whatever it raises ends the work.
     """
     marked = np.zeros(len(vertices), dtype=bool)
     rough = faces[np.abs(off) > _OFF / 4 * cell]
@@ -70,6 +71,7 @@ def creased(
     part = _Part(terms, vertices[corners], which.reshape(-1, 3), cell, planes)
     part.split(lambda edges: np.all(marked[corners[edges]], axis=1) & ~np.all(pinched[corners[edges]], axis=1))
     for _ in range(_ROUNDS - 1):
+        still()
         part.split(lambda edges: edges[:, 1] >= len(corners))
     if len(part.points) == len(corners):
         return None

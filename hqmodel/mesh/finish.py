@@ -73,19 +73,21 @@ def finished(
 ) -> Mesh:
     """The whole mesh from its welded pieces: the part on one side of the mirror planes, and its images.
 
-    `still` is called again and again while the mesh is reduced; whatever it raises ends the work.
+    `still` is called again and again; whatever it raises ends the work.
     """
     vertices, faces, off, normals = (weld.take(name) for name in ("vertices", "faces", "off", "normals"))
     _balance(vertices, normals, faces, off, weld.take("pull"), grid, mirrored)
+    still()
     pinched, colors = weld.take("pinched"), weld.take("colors")
     planes = [(axis, plane) for axis, plane, _ in grid.cuts] + [(axis, 0.0) for axis in mirrored]
-    split = creased(terms, vertices, normals, faces, off, grid.cell, planes, pinched)
+    split = creased(terms, vertices, normals, faces, off, grid.cell, planes, pinched, still)
     if split is not None:
         vertices, faces = np.concatenate([vertices, split.points]), split.faces
         normals = np.concatenate([normals, with_caps(split.normals, split.points, grid)])
         colors = np.concatenate([colors, colored(scene, terms, split.points)])
         pinched = np.append(pinched, np.zeros(len(split.points), dtype=bool))
         off = _measured(terms, grid, vertices, faces, off[split.origin], split.origin)
+    still()
     share = len(faces) if target_faces is None else target_faces // 2 ** len(mirrored)
     if share < len(faces):
         vertices, faces = _fewer(terms, grid, vertices, faces, mirrored, planes, share, still)
@@ -94,8 +96,10 @@ def finished(
         slopes = near_linear_gradient(terms, vertices)[1]
         normals, colors, off = clothed(scene, terms, grid, vertices, slopes, faces, within)
         pinched = np.full(len(vertices), pinched.any())
+    still()
     mesh = Mesh(vertices, faces, normals, colors, largest_distance(terms, vertices, faces, off, grid.cell))
     for axis in mirrored:
+        still()
         pinched = np.append(pinched, pinched[mesh.vertices[:, axis] != 0])
         mesh = reflected(mesh, axis)
     return parted(mesh, pinched)

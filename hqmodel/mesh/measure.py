@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from hqmodel.field import Terms, log_ratio, near_linear_single
 
 from .compiled import compiled
-from .mesh import Array, Mesh, Triangles, crosses, lengths
+from .mesh import Array, Mesh, Triangles, lengths
 from .refine import to_surface
 
 
@@ -49,14 +49,9 @@ def largest_distance(terms: Terms, vertices: Array, faces: Triangles, off: NDArr
 
 def report(mesh: Mesh) -> dict[str, Any]:
     """Counts and measures of a mesh, in its own unit: what ``hqmodel export --json`` prints of it."""
-    corners = mesh.vertices[mesh.faces]
-    origin = mesh.vertices.mean(axis=0)
-    a, b, c = (corners[:, i] - origin for i in range(3))
-    with np.errstate(over="ignore", invalid="ignore"):
-        across = crosses(b - a, c - a)
-        volume = float(np.einsum("ij,ij->", a, across) / 6)
-        area = float(lengths(across).sum() / 2)
-    watertight, edges = _closed(mesh)
+    faces = np.ascontiguousarray(mesh.faces, dtype=np.int32)
+    volume, area = _content(np.ascontiguousarray(mesh.vertices, dtype=float), faces)
+    watertight, edges = _closed(faces, len(mesh.vertices))
     return {
         "vertices": len(mesh.vertices),
         "faces": len(mesh.faces),
@@ -69,13 +64,42 @@ def report(mesh: Mesh) -> dict[str, Any]:
     }
 
 
-def _closed(mesh: Mesh) -> tuple[bool, int]:
+@compiled
+def _content(vertices: Array, faces: Triangles) -> tuple[float, float]:
+    """Volume and area: (b - a) x (c - a) of every face has twice its area, and with a six times its share of the volume."""
+    x, y, z = vertices[:, 0] - vertices[0, 0], vertices[:, 1] - vertices[0, 1], vertices[:, 2] - vertices[0, 2]
+    volume = area = 0.0
+    for f in range(len(faces)):
+        a, b, c = faces[f, 0], faces[f, 1], faces[f, 2]
+        ux, uy, uz = x[b] - x[a], y[b] - y[a], z[b] - z[a]
+        vx, vy, vz = x[c] - x[a], y[c] - y[a], z[c] - z[a]
+        nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+        volume += (x[a] * nx + y[a] * ny + z[a] * nz) / 6
+        area += np.sqrt(nx * nx + ny * ny + nz * nz) / 2
+    return volume, area
+
+
+@compiled
+def _closed(faces: Triangles, count: int) -> tuple[bool, int]:
     """Whether every edge has exactly one neighbour in each direction, and how many edges there are."""
-    count = len(mesh.vertices)
-    start = mesh.faces.ravel().astype(np.int64)
-    end = np.roll(mesh.faces, -1, axis=1).ravel().astype(np.int64)
-    forward = np.sort(start * count + end)
-    backward = np.sort(end * count + start)
-    simple = bool(np.all(np.diff(forward) > 0)) if len(forward) else False
-    edges = np.unique(np.minimum(start, end) * count + np.maximum(start, end))
-    return simple and bool(np.array_equal(forward, backward)), len(edges)
+    start = np.zeros(count + 1, dtype=np.int64)
+    for corner in faces.ravel():
+        start[corner + 1] += 1
+    start = np.cumsum(start)
+    ends, filled = np.empty(faces.size, dtype=np.int32), start[:-1].copy()
+    for f in range(len(faces)):
+        for i in range(3):
+            corner = faces[f, i]
+            ends[filled[corner]] = faces[f, i - 2]
+            filled[corner] += 1
+    simple, edges = len(faces) > 0, 0
+    for a in range(count):
+        for e in range(start[a], start[a + 1]):
+            b, before, back = ends[e], 0, 0
+            for other in range(start[a], e):
+                before += ends[other] == b
+            for other in range(start[b], start[b + 1]):
+                back += ends[other] == a
+            simple &= back == 1 and before == 0
+            edges += before == 0 and (a <= b or back == 0)
+    return simple, edges
