@@ -1,0 +1,108 @@
+"""What the tests of reliability look at in samples, at length: `make reliability`, or some of it by name.
+
+Each part prints one line of numbers, and ends with an error at the first fault. See docs/reliability.md.
+"""
+
+from __future__ import annotations
+
+import gc
+import os
+import random
+import resource
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import monotonic, sleep
+
+import numpy as np
+
+from hqmodel import files
+from hqmodel.app.asks import ExportSettings
+from hqmodel.app.export import ExportJob
+from hqmodel.app.intents import Do, Select
+from hqmodel.app.session import Session
+from hqmodel.app.tools.aim import Aim
+from hqmodel.gpu import offscreen
+from hqmodel.model import Camera
+from tests.app.tools.test_random import MOST, begun, picked, pulled
+from tests.reliability import kills, mutants, wild
+from tests.reliability.objects import alive_after
+
+MUTANTS, SCENES, PICTURES, STOPS, GESTURES, DRAWN = 250_000, 3000, 200, 30, 2000, 200
+
+
+def killed() -> object:
+    """Saves and exports killed at every system call."""
+    os.environ["OPENBLAS_NUM_THREADS"] = "1"
+    with TemporaryDirectory() as folder:
+        return kills.main(Path(folder), 1, list(kills.WORKS))
+
+
+def damaged() -> object:
+    """Damaged presets."""
+    return mutants.main(MUTANTS, 1)
+
+
+def numbers() -> object:
+    """Random scenes over the whole permitted range."""
+    return wild.main(SCENES, 10_000, PICTURES)
+
+
+def stopped() -> object:
+    """Exports stopped at random moments: seconds until they have."""
+    scene, moments, took = files.load("soft-die"), random.Random(1), []
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "die.3mf"
+        started = monotonic()
+        ExportJob(scene, ExportSettings(path)).wait()
+        whole = monotonic() - started
+        path.unlink()
+        for _ in range(STOPS):
+            job = ExportJob(scene, ExportSettings(path))
+            sleep(moments.uniform(0, 0.9 * whole))
+            asked = monotonic()
+            job.cancel()
+            job.wait()
+            took.append(monotonic() - asked)
+            assert job.outcome is None or job.progress == 1
+            assert not list(Path(folder).iterdir()) or job.progress == 1
+            path.unlink(missing_ok=True)
+    return {"median": round(sorted(took)[STOPS // 2], 3), "longest": round(max(took), 3)}
+
+
+def soaked() -> object:
+    """Random gestures, edits and undos in one session: memory in MiB after each quarter."""
+    chance, session, sizes = np.random.default_rng(11), Session(files.Settings()), []
+    for number in range(1, GESTURES + 1):
+        session.apply([Select(*picked(session.scene, chance))])
+        crowded = session.scene.strip_count > MOST
+        if crowded or chance.random() < 0.15:
+            session.apply([Do("delete" if crowded else str(chance.choice(["rounder", "carve", "duplicate", "undo", "redo"])))])
+            if not any(shape.visible and shape.coefficient > 0 for shape in session.scene.shapes):
+                session.apply([Do("add block")])
+            continue
+        camera = Camera(distance=8.0, azimuth=float(chance.uniform(0, 360)), elevation=float(chance.uniform(-80, 80)))
+        gesture = begun(session, Aim(camera, (900, 700)), chance)
+        if gesture is not None:
+            pulled(session, gesture, chance)
+        if number % (GESTURES // 4) == 0:
+            sizes.append(_resident())
+    return {"gestures": GESTURES, "steps kept": len(session.history.labels), "MiB": sizes}
+
+
+def _resident() -> int:
+    gc.collect()
+    return int(Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize() >> 20
+
+
+def drawn() -> object:
+    """Many scenes in one preview, its size changing: OpenGL's objects after each quarter."""
+    return alive_after(offscreen(), DRAWN)
+
+
+PARTS: dict[str, Callable[[], object]] = {part.__name__: part for part in (killed, damaged, numbers, stopped, soaked, drawn)}
+
+if __name__ == "__main__":
+    for name in sys.argv[1:] or PARTS:
+        print(f"{name}: {PARTS[name]()}", flush=True)

@@ -1,0 +1,46 @@
+"""What a machine lacks is said in a sentence, and what is taken of it is given back."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from hqmodel.gpu import offscreen
+
+from .objects import alive, alive_after
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_opengl_objects_are_given_back() -> None:
+    ctx = offscreen()
+    with ctx:
+        before = alive(ctx)
+        quarters = alive_after(ctx, 48)
+        after = alive(ctx)
+    ctx.release()
+    assert len(set(quarters)) == 1, "after the first dozen scenes there are as many as after the last"
+    assert quarters[0] > before
+    assert after.textures == before.textures
+
+
+@pytest.mark.parametrize(
+    "lacking",
+    [
+        {"MESA_GL_VERSION_OVERRIDE": "2.1"},
+        {"__EGL_VENDOR_LIBRARY_FILENAMES": "/nonexistent", "DISPLAY": ""},
+        {"LIBGL_DRIVERS_PATH": "/nonexistent", "GBM_BACKENDS_PATH": "/nonexistent", "__EGL_VENDOR_LIBRARY_DIRS": "/nonexistent"},
+    ],
+)
+def test_without_opengl_one_sentence_says_what_to_install(tmp_path: Path, lacking: dict[str, str]) -> None:
+    command = [sys.executable, "-m", "hqmodel", "render", "soft-die", "-o", str(tmp_path / "a.png"), "--size", "16x16"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env={**os.environ, **lacking}, cwd=ROOT)
+    assert (done.returncode, done.stdout) == (3, "")
+    assert done.stderr.count("\n") == 1
+    assert "OpenGL 3.3 is needed" in done.stderr
+    assert "libegl1" in done.stderr
+    assert not list(tmp_path.iterdir())
