@@ -14,7 +14,7 @@ import pytest
 import hqmodel
 
 ROOT = Path(__file__).parents[1]
-HEAVY = ("moderngl", "glfw", "imgui_bundle", "trimesh", "scipy", "numba")
+HEAVY = ("moderngl", "glfw", "imgui_bundle", "trimesh", "scipy")
 PUBLIC = ["Scene", "Shape", "Strip", "fit", "load", "polygonize", "render", "save"]
 
 

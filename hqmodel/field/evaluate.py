@@ -8,19 +8,19 @@ lone shape with c = w = 1 just beta (C - H): what roots are sought and grids are
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import reduce
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .powers import CEILING, group_factor, scaled, share_power, strip_functions, strip_slopes, term_sums
+from .powers import CEILING, group_powers, over_runs, power, scaled, strip_functions, term_sums
 from .terms import HUGE, Array, Indices, Terms
 
-# Points worked on at once: what stays in a processor's cache.
-_CHUNK = 1 << 13
+# Strips times points worked on at once: what stays in a processor's cache.
+_CHUNK = 1 << 17
 # exp of this is just inside float64.
 _TOP = 709.0
+_STEEP = 1e140
 
 
 class Curvature(NamedTuple):
@@ -40,7 +40,7 @@ def log_ratio(terms: Terms, points: ArrayLike) -> Array:
 
     Infinite only where the scene has nothing that adds, or nothing to hold against it: neither level nor carving shape.
     """
-    return _by_chunk(terms, points, _log_ratio)
+    return _by_chunk(terms, points, lambda t, p: log_balance(t, exponents(t, _sums(t, p))))
 
 
 def gradient(terms: Terms, points: ArrayLike) -> Array:
@@ -59,8 +59,11 @@ def near_linear_gradient(terms: Terms, points: ArrayLike) -> tuple[Array, Array]
 
     Their quotient is a Newton step that neither creeps from outside nor leaps from inside.
     """
-    both = _by_chunk(terms, points, _near_linear_gradient, columns=4)
-    return both[..., 0], both[..., 1:]
+    ratio, slope = log_gradient(terms, points)
+    hard, steep = _typical(terms)
+    rate = np.maximum(1.0 - ratio / hard, 1e-300) ** (1.0 / steep - 1.0) / (hard * steep)
+    with np.errstate(over="ignore"):
+        return near_linear(terms, ratio), np.clip(slope * rate[..., None], -HUGE, HUGE)
 
 
 def curvature(terms: Terms, points: ArrayLike) -> Curvature:
@@ -112,135 +115,98 @@ def _typical(terms: Terms) -> tuple[float, float]:
 
 def exponents(terms: Terms, h_sums: Array) -> Array:
     """T_k = ln |c_k| + beta_k (C_k - H_k), (K, P), from H, (K, P): finite always."""
-    t = terms.hardness[:, None] * (terms.constant[:, None] - h_sums) + terms.log_coefficient[:, None]
+    with np.errstate(over="ignore"):
+        t = terms.hardness[:, None] * (terms.constant[:, None] - h_sums) + terms.log_coefficient[:, None]
     return np.clip(t, -CEILING, CEILING)
 
 
 def log_balance(terms: Terms, t: Array, t_carving: Array | None = None) -> Array:
     """L (P,) from the exponents T (K, P); for bounds the carving terms may take theirs from another array."""
-    p, n = log_side(terms, t, True), log_side(terms, t if t_carving is None else t_carving, False)
-    return np.full(t.shape[1], p - n if np.all(p > -np.inf) else -np.inf)
+    positive = terms.positive
+    level = terms.level
+    gain = [t[positive]]
+    loss = [(t if t_carving is None else t_carving)[~positive]]
+    if level != 0:
+        (loss if level > 0 else gain).append(np.full((1, t.shape[1]), np.log(abs(level))))
+    p, n = log_sum(np.concatenate(gain)), log_sum(np.concatenate(loss))
+    with np.errstate(invalid="ignore"):
+        return np.where(p == n, 0.0, p - n)
 
 
-def log_side(terms: Terms, t: Array, adding: bool) -> Array | float:
-    """ln P, or ln N if not `adding`, from the exponents T (K, P), the level included; -inf where there is nothing to add."""
-    rows: list[Array | float] = [t[k] for k in terms.sides[adding]]
-    if terms.level and (terms.level < 0) == adding:
-        rows.append(terms.log_level)
-    if len(rows) < 2:
-        return rows[0] if rows else -np.inf
-    top = reduce(np.maximum, rows)
-    return top + np.log(sum(np.exp(row - top) for row in rows))
+def log_sum(t: Array) -> Array:
+    """ln sum exp over the first axis; -inf where there is nothing to add."""
+    if len(t) <= 1:
+        return t[0] if len(t) else np.full(t.shape[1], -np.inf)
+    top = np.max(t, axis=0)
+    return top + np.log(np.sum(np.exp(t - top), axis=0))
 
 
-class _Field:
-    """h (S, P) and T (K, P) at points (P, 3), and what follows from them."""
-
-    def __init__(self, terms: Terms, points: Array) -> None:
-        self.terms = terms
-        self.h = strip_functions(terms, points)
-        self.t = exponents(terms, term_sums(terms, np.abs(self.h))[0])
-
-    def slope(self) -> Array:
-        """The gradient of every H, (K, 3, P)."""
-        terms, by_strip = self.terms, strip_slopes(self.terms, self.h)
-        result = np.zeros((len(terms), 3, self.h.shape[1]))
-        for term, (begin, end) in zip(result, terms.groups, strict=True):
-            for j in range(begin, end):
-                for a in range(*terms.strips[j]):
-                    for row, factor in zip(term, (terms.group_sign[j] * terms.normal[a]).tolist(), strict=True):
-                        row += factor * by_strip[a]
-        return np.clip(result, -HUGE, HUGE, out=result)
-
-    def bend(self) -> Array:
-        """The second derivatives of every H, (K, P, 3, 3).
-
-        Of a group with largest member m, shares r = |h|/m and s = sum r^g those by |h_a| and |h_b| are
-        G m^(G-2) s^(G/g-2) [(G-g) r_a^(g-1) r_b^(g-1) + delta_ab (g-1) s r_a^(g-2)].
-        """
-        terms = self.terms
-        result = np.zeros((len(terms), self.h.shape[1], 3, 3))
-        for j, (k, (first, end)) in enumerate(zip(terms.term_of_group, terms.strips, strict=True)):
-            u, inner, outer = np.abs(self.h[first:end]), float(terms.inner[first]), float(terms.outer[j])
-            if end - first == 1:
-                inner = outer
-            largest, spread = scaled(u, inner)
-            share = u / np.maximum(largest, np.finfo(float).tiny)
-            factor = group_factor(outer, inner, largest, spread, 2) * terms.group_sign[j]
-            own = share_power(share, inner, 2) * (factor * spread * (inner - 1))
-            lean = (share_power(share, inner, 1) * np.sign(self.h[first:end])).T @ terms.normal[first:end]
-            result[k] += np.einsum("ap,ai,aj->pij", own, terms.normal[first:end], terms.normal[first:end])
-            result[k] += np.einsum("p,pi,pj->pij", factor * (outer - inner), lean, lean)
-        return result
-
-    def share(self) -> tuple[Array, Array]:
-        """Signed terms divided by the largest (K, P), and the logarithm of that (P,)."""
-        top = np.max(self.t, axis=0, initial=-CEILING)
-        return np.sign(self.terms.coefficient)[:, None] * np.exp(self.t - top), top
+def _sums(terms: Terms, points: Array) -> Array:
+    u = np.abs(strip_functions(terms, points))
+    return term_sums(terms, group_powers(terms, u), u)
 
 
-def _value(field: _Field) -> Array:
-    share, top = field.share()
-    return np.nan_to_num(np.sum(share, axis=0) * np.exp(np.minimum(top, _TOP)) - field.terms.level)
+def _relative(terms: Terms, t: Array) -> tuple[Array, Array]:
+    """Signed terms divided by the largest (K, P), and the logarithm of that (P,)."""
+    top = np.max(t, axis=0)
+    return np.sign(terms.coefficient)[:, None] * np.exp(t - top), top
 
 
-def _log_ratio(field: _Field) -> Array:
-    return log_balance(field.terms, field.t)
+def _value(terms: Terms, points: Array) -> Array:
+    share, top = _relative(terms, exponents(terms, _sums(terms, points)))
+    with np.errstate(over="ignore"):
+        total = np.sum(share, axis=0) * np.exp(np.minimum(top, _TOP)) - terms.level
+    return np.nan_to_num(total)
 
 
-def _gradient(field: _Field) -> Array:
-    share, top = field.share()
-    lean = share * field.terms.hardness[:, None]
-    return np.nan_to_num(-np.einsum("kp,kip->ip", lean, field.slope()) * np.exp(np.minimum(top, _TOP)))
+def _gradient(terms: Terms, points: Array) -> Array:
+    jet = _Jet(terms, points)
+    share, top = _relative(terms, jet.t)
+    with np.errstate(over="ignore"):
+        g = -np.einsum("kp,kip->ip", share * terms.hardness[:, None], jet.slope) * np.exp(np.minimum(top, _TOP))
+    return np.nan_to_num(g)
 
 
-def _log_gradient(field: _Field) -> Array:
-    terms, t = field.terms, field.t
-    result = np.zeros((4, t.shape[1]))
-    result[0] = log_balance(terms, t)
-    sides = {adding: log_side(terms, t, adding) for adding in (False, True)}
-    for k, (hardness, slope) in enumerate(zip(terms.hardness, field.slope(), strict=True)):
-        adding = bool(terms.positive[k])
-        # not by np.einsum: of no point may the last bit depend on its neighbours
-        result[1:] += np.exp(t[k] - sides[adding]) * (-hardness if adding else hardness) * slope
-    return result
+def _log_gradient(terms: Terms, points: Array) -> Array:
+    jet = _Jet(terms, points)
+    balance = log_balance(terms, jet.t)
+    weights = np.empty_like(jet.t)
+    level = np.log(abs(terms.level)) if terms.level else -np.inf
+    for side, adds in ((terms.positive, True), (~terms.positive, False)):
+        total = log_sum(jet.t[side])
+        if (terms.level < 0) == adds:
+            total = np.logaddexp(total, level)
+        weights[side] = (1 if adds else -1) * np.exp(jet.t[side] - total)
+    weights *= -terms.hardness[:, None]
+    # not by np.einsum: of no point may the last bit depend on its neighbours
+    return np.vstack([balance, np.sum(weights[:, None] * jet.slope, axis=0)])
 
 
-def _near_linear_gradient(field: _Field) -> Array:
-    result = _log_gradient(field)
-    hard, steep = _typical(field.terms)
-    inner = np.maximum(1.0 - result[0] / hard, 1e-300)
-    root = inner ** (1.0 / steep)
-    result[0] = 1.0 - root
-    result[1:] = np.clip(result[1:] * (root / inner / (hard * steep)), -HUGE, HUGE)
-    return result
-
-
-def _term_weights(field: _Field) -> Array:
-    share = np.abs(field.share()[0])
+def _term_weights(terms: Terms, points: Array) -> Array:
+    share = np.abs(_relative(terms, exponents(terms, _sums(terms, points)))[0])
     return share / np.sum(share, axis=0)
 
 
-def _shaping_strip(field: _Field) -> Array:
-    terms = field.terms
-    if not len(terms):
-        return np.zeros(field.h.shape[1])
-    weight = (np.abs(field.share()[0]) * terms.hardness[:, None])[terms.term_of_strip]
-    length = np.linalg.norm(terms.normal, axis=1)[:, None]
-    return np.argmax(np.abs(strip_slopes(terms, field.h)) * weight * length, axis=0).astype(float)
+def _shaping_strip(terms: Terms, points: Array) -> Array:
+    jet = _Jet(terms, points)
+    share, _ = _relative(terms, jet.t)
+    pull = np.abs(jet.by_strip) * (np.abs(share) * terms.hardness[:, None])[terms.term_of_strip]
+    return np.argmax(pull * np.linalg.norm(terms.normal, axis=1)[:, None], axis=0).astype(float)
 
 
-def _curvature(field: _Field) -> Array:
-    hardness, slope = field.terms.hardness[:, None], field.slope()
-    lean = field.share()[0] * hardness
-    g = -np.einsum("kp,kip->pi", lean, slope)
-    bend = np.einsum("kp,kip,kjp->pij", lean * hardness, slope, slope)
-    bend -= np.einsum("kp,kpij->pij", lean, field.bend())
-    length = np.linalg.norm(g, axis=1)
-    n = g / length[:, None]
-    bend /= length[:, None, None]
-    gaussian = np.einsum("pi,pij,pj->p", n, _adjugate(bend), n)
-    mean = (np.einsum("pi,pij,pj->p", n, bend, n) - np.trace(bend, axis1=1, axis2=2)) / 2
+def _curvature(terms: Terms, points: Array) -> Array:
+    jet = _Jet(terms, points)
+    share, _ = _relative(terms, jet.t)
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        lean = share * terms.hardness[:, None]
+        g = -np.einsum("kp,kip->pi", lean, jet.slope)
+        bend = np.einsum("kp,kip,kjp->pij", lean * terms.hardness[:, None], jet.slope, jet.slope)
+        bend -= np.einsum("kp,kpij->pij", lean, jet.bend())
+        length = np.linalg.norm(g, axis=1)
+        n = g / length[:, None]
+        bend /= length[:, None, None]
+        gaussian = np.einsum("pi,pij,pj->p", n, _adjugate(bend), n)
+        mean = (np.einsum("pi,pij,pj->p", n, bend, n) - np.trace(bend, axis1=1, axis2=2)) / 2
     return np.nan_to_num(np.stack([gaussian, mean]))
 
 
@@ -250,15 +216,98 @@ def _adjugate(m: Array) -> Array:
     return np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)], axis=2)
 
 
-def _by_chunk(terms: Terms, points: ArrayLike, work: Callable[[_Field], Array], columns: int = 0) -> Array:
+class _Jet:
+    """T (K, P), the gradient of every H, (K, 3, P), and on demand their second derivatives.
+
+    Of a group with largest member m, shares r = |h|/m and s = sum r^g the derivatives by |h_a| are
+    G m^(G-1) s^(G/g-1) r_a^(g-1) and G m^(G-2) s^(G/g-2) [(G-g) r_a^(g-1) r_b^(g-1) + delta_ab (g-1) s r_a^(g-2)].
+    """
+
+    def __init__(self, terms: Terms, points: Array) -> None:
+        self.terms = terms
+        h = strip_functions(terms, points)
+        u = np.abs(h)
+        self.sign = np.sign(h)
+        self.t = exponents(terms, term_sums(terms, group_powers(terms, u), u))
+        if terms.grouped:
+            self.largest, self.spread = scaled(terms, u)
+            self.share = u / np.maximum(self.largest, np.finfo(float).tiny)[terms.group_of_strip]
+        else:
+            self.largest, self.spread, self.share = u, np.ones_like(u), np.ones_like(u)
+        first = self._group_factor(1)[terms.group_of_strip]
+        self.by_strip = np.minimum(first * self._share_power(1), _STEEP) * self.sign
+        signed = self.by_strip * terms.group_sign[terms.group_of_strip][:, None] if terms.hyperbolic else self.by_strip
+        self.slope = self._to_terms(signed)
+
+    def _group_factor(self, order: int) -> Array:
+        """G m^(G-order) s^(G/g-order), (G, P); 0 at m = 0 unless the exponent is 0."""
+        terms = self.terms
+        lowered = (terms.outer - order)[:, None]
+        with np.errstate(over="ignore", divide="ignore"):
+            size, inside = self.largest, np.ones(1)
+            if terms.grouped:  # m^(G-order) may underflow where s^(G/g-order) overflows: rooted before it is raised
+                inner = terms.inner[terms.group_start][:, None]
+                size = size * self.spread ** (1 / inner)
+                inside = self.spread ** (order * (1 / inner - 1))
+            raised = np.minimum(power(size, terms.outer - order), _STEEP)
+        regular = (self.largest > 0) | (lowered == 0)
+        return np.where(regular, terms.outer[:, None] * np.minimum(raised * inside, _STEEP), 0.0)
+
+    def _share_power(self, order: int) -> Array:
+        """r^(g-order), (S, P); 0 at r = 0 unless the exponent is 0."""
+        if not self.terms.grouped:
+            return self.share
+        lowered = (self.terms.inner - order)[:, None]
+        with np.errstate(over="ignore", divide="ignore"):
+            raised = np.minimum(self.share**lowered, 1e100)
+        return np.where((self.share > 0) | (lowered == 0), raised, 0.0)
+
+    def _to_terms(self, by_strip: Array) -> Array:
+        """Sum of by_strip (S, P) times the normals over each term's strips, (K, 3, P)."""
+        terms = self.terms
+        first_strip = terms.group_start[terms.term_start]
+        parts = [over_runs(by_strip * terms.normal[:, i, None], first_strip) for i in range(3)]
+        return np.clip(np.stack(parts, axis=1), -HUGE, HUGE)
+
+    def bend(self) -> Array:
+        """The second derivatives of every H, (K, P, 3, 3)."""
+        terms = self.terms
+        sign = terms.group_sign[:, None]
+        factor = self._group_factor(2)
+        diagonal = self._share_power(2) * ((factor * self.spread * sign)[terms.group_of_strip] * (terms.inner - 1)[:, None])
+        first_strip = terms.group_start[terms.term_start]
+        mixed = self._share_power(1) * self.sign
+        lean = np.stack([over_runs(mixed * terms.normal[:, i, None], terms.group_start) for i in range(3)])
+        cross = factor * sign * (terms.outer - terms.inner[terms.group_start])[:, None]
+        result = np.empty((len(terms), diagonal.shape[1], 3, 3))
+        for i in range(3):
+            for j in range(i + 1):
+                own = diagonal * (terms.normal[:, i] * terms.normal[:, j])[:, None]
+                entry = over_runs(own, first_strip) + over_runs(cross * lean[i] * lean[j], terms.term_start)
+                result[:, :, i, j] = result[:, :, j, i] = entry
+        return result
+
+
+def _by_chunk(terms: Terms, points: ArrayLike, work: Callable[[Terms, Array], Any], columns: int = 0) -> Array:
     """Apply `work` to points (..., 3) a cacheful at a time; the result is (...,) or (..., columns).
 
     `work` returns (P,) or (columns, P); the result too keeps each column together in memory, which is what NumPy is quick with.
+    A scene with nothing in it has F = -level everywhere.
     """
     where = np.asarray(points, dtype=float)
     flat = where.reshape(-1, 3)
-    result = np.empty((max(columns, 1), len(flat)))
-    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-        for start in range(0, len(flat), _CHUNK):
-            result[:, start : start + _CHUNK] = work(_Field(terms, flat[start : start + _CHUNK]))
+    result = np.zeros((max(columns, 1), len(flat)))
+    if not len(terms):
+        _fill_empty(terms, work, result)
+    else:
+        step = max(1, _CHUNK // len(terms.inner))
+        for start in range(0, len(flat), step):
+            result[:, start : start + step] = work(terms, flat[start : start + step])
     return result.T.reshape(*where.shape[:-1], columns) if columns else result.reshape(where.shape[:-1])
+
+
+def _fill_empty(terms: Terms, work: Callable[[Terms, Array], Any], result: Array) -> None:
+    if work is _value:
+        result[:] = -terms.level
+    elif len(result) == 1 or work is _log_gradient:
+        result[0] = -np.inf if terms.level >= 0 else np.inf

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .evaluate import exponents, log_balance
-from .powers import strip_functions, term_sums
+from .powers import group_powers, over_runs, strip_functions, term_sums
 from .terms import HUGE, Array, Terms
 
 _EPS = np.finfo(float).eps
@@ -55,21 +55,28 @@ def term_bounds(terms: Terms, middle: Array, reach: Array) -> tuple[Array, Array
 
 def _exponents(terms: Terms, adding: Array, taking: Array) -> tuple[Array, Array]:
     """T with positive groups at |h| = adding and negative ones at |h| = taking, and how far rounding may have moved it."""
-    with np.errstate(over="ignore", divide="ignore"):
-        sums, size = term_sums(terms, adding, taking)
+    if terms.hyperbolic:
+        adding = np.where((terms.group_sign > 0)[terms.group_of_strip][:, None], adding, taking)
+    v = group_powers(terms, adding)
+    sums = term_sums(terms, v, adding)
+    size = over_runs(v, terms.term_start) if terms.hyperbolic else sums
+    with np.errstate(over="ignore"):
         fixed = terms.hardness * np.abs(terms.constant) + np.abs(terms.log_coefficient) + 1
         pad = 64 * _EPS * np.minimum(terms.hardness[:, None] * size + fixed[:, None], 1e300)
-        return exponents(terms, sums), pad
+    return exponents(terms, sums), pad
 
 
 def _slices(terms: Terms, count: int) -> list[slice]:
     """What is worked on at once, of so many boxes or segments."""
-    step = max(1, _CELLS // max(1, len(terms.inner)))
+    step = max(1, _CELLS // len(terms.inner))
     return [slice(begin, begin + step) for begin in range(0, count, step)]
 
 
 def _in_slices(terms: Terms, ranges: _Ranges, first: Array, second: Array) -> tuple[Array, Array]:
     count = len(first)
+    if not len(terms):
+        empty = np.full(count, -np.inf if terms.level >= 0 else np.inf)
+        return empty, empty
     lower, upper = np.empty(count), np.empty(count)
     for here in _slices(terms, count):
         t_low, t_high = term_bounds(terms, *ranges(terms, first[here], second[here]))
@@ -103,4 +110,5 @@ def relevant_terms(terms: Terms, low: ArrayLike, high: ArrayLike, negligible: fl
         return terms
     t_low, t_high = term_bounds(terms, *box_ranges(terms, np.atleast_2d(low), np.atleast_2d(high)))
     sides = [float(np.max(t_low[side], initial=-np.inf)) for side in (terms.positive, ~terms.positive)]
-    return terms.keep(t_high[:, 0] >= max(*sides, terms.log_level) - negligible)
+    sides.append(float(np.log(abs(terms.level))) if terms.level else -np.inf)
+    return terms.keep(t_high[:, 0] >= max(sides) - negligible)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import pairwise, product
+from itertools import product
 from typing import Any, Self
 
 import numpy as np
@@ -60,24 +60,14 @@ class Terms:
         return len(self.term_start)
 
     @cached_property
-    def hyperbolic(self) -> bool:
-        """Whether any sign is negative."""
-        return bool(np.any(self.group_sign < 0))
-
-    @cached_property
     def grouped(self) -> bool:
         """Whether any group holds more than one strip or has an exponent of its own."""
         return len(self.group_start) < len(self.inner) or bool(np.any(self.outer != self.inner[self.group_start]))
 
     @cached_property
-    def strips(self) -> list[tuple[int, int]]:
-        """The first of each group's strips, and the one after its last."""
-        return _runs(self.group_start, len(self.inner))
-
-    @cached_property
-    def groups(self) -> list[tuple[int, int]]:
-        """The first of each term's groups, and the one after its last."""
-        return _runs(self.term_start, len(self.group_start))
+    def hyperbolic(self) -> bool:
+        """Whether any sign is negative."""
+        return bool(np.any(self.group_sign < 0))
 
     @cached_property
     def group_of_strip(self) -> Indices:
@@ -100,19 +90,9 @@ class Terms:
         return np.log(np.abs(self.coefficient))
 
     @cached_property
-    def log_level(self) -> float:
-        """ln |w|; -inf where the level is 0."""
-        return float(np.log(abs(self.level))) if self.level else -np.inf
-
-    @cached_property
     def positive(self) -> NDArray[np.bool_]:
         """(K,) whether each term adds."""
         return self.coefficient > 0
-
-    @cached_property
-    def sides(self) -> tuple[list[int], list[int]]:
-        """The terms that carve, and those that add."""
-        return np.flatnonzero(~self.positive).tolist(), np.flatnonzero(self.positive).tolist()
 
     def keep(self, chosen: NDArray[np.bool_]) -> Terms:
         """Only the chosen terms, (K,) booleans; the level stays."""
@@ -135,12 +115,6 @@ class Terms:
             strip_source=self.strip_source[strips],
             term_source=self.term_source[chosen],
         )
-
-
-def _runs(starts: Indices, count: int) -> list[tuple[int, int]]:
-    """First and one after the last of each of the runs that begin at `starts` and together end at `count`."""
-    ends = [*starts.tolist(), count]
-    return list(pairwise(ends))
 
 
 def _starts(labels: Indices) -> Indices:

@@ -22,11 +22,11 @@ from hqmodel.field import (
 )
 from hqmodel.model import Scene
 
-from .cull import PART, TILE, Blocks, blocks_of, parts, tiles
-from .extract import AT_NODE, Patch, Samples, extract
+from .cull import TILE, Blocks, blocks_of, tiles
+from .extract import AT_NODE, Numbers, Samples, extract
 from .finish import finished, pulls
 from .grid import Grid, make_grid
-from .mesh import Array, Mesh, MeshError
+from .mesh import Mesh, MeshError
 from .refine import place_vertices
 from .shade import clothed
 from .weld import Piece, Weld
@@ -70,7 +70,8 @@ def polygonize(
     grid = make_grid(where, resolution, mirrored)
     weld = Weld()
     for piece in _pieces(scene, terms, grid, tell):
-        weld.add(piece)
+        if piece is not None:
+            weld.add(piece)
     if not weld:
         raise MeshError("no surface: the field does not reach its level anywhere at this resolution")
     still = partial(tell, 0.95, "Joining" if target_faces is None else "Reducing")
@@ -100,55 +101,39 @@ def _must_be_near(where: Region) -> None:
         raise MeshError(f"expected a body nearer to the origin, got one {side:.3g} long at a distance of {away:.3g}")
 
 
-def _pieces(scene: Scene, terms: Terms, grid: Grid, tell: Progress) -> Iterator[Piece]:
+def _pieces(scene: Scene, terms: Terms, grid: Grid, tell: Progress) -> Iterator[Piece | None]:
     """The tiles' pieces in order, worked out on all cores."""
     jobs = tiles(terms, grid)
-    ahead = 1 + (os.cpu_count() or 1)
+    ahead = 2 * (os.cpu_count() or 1)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        under_way = deque[Future[list[Piece]]]()
+        under_way = deque[Future[Piece | None]]()
         try:
             for number in range(len(jobs) + ahead):
                 if number < len(jobs):
-                    under_way.append(pool.submit(_of_tile, scene, terms, grid, jobs[number]))
+                    under_way.append(pool.submit(_piece, scene, terms, grid, jobs[number]))
                 if number >= ahead:  # no further ahead, so that pieces don't pile up
-                    yield from under_way.popleft().result()
+                    yield under_way.popleft().result()
                     tell(0.95 * (number - ahead + 1) / len(jobs), "Meshing")
         finally:
             pool.shutdown(wait=True, cancel_futures=True)
 
 
-def _of_tile(scene: Scene, terms: Terms, grid: Grid, tile: Blocks) -> list[Piece]:
-    """What a tile holds, in pieces of smaller tiles."""
+def _piece(scene: Scene, terms: Terms, grid: Grid, tile: Blocks) -> Piece | None:
     low, high = grid.corners(tile.reshape(1, 3), TILE)
     local = relevant_terms(terms, low[0], high[0])
-    field = partial(_samples, local)
-    found = (extract(blocks, grid, field) for blocks in parts(blocks_of(local, grid, tile)))
-    patches = [patch for patch in found if patch is not None and len(patch.faces)]
-    if not patches:
-        return []
-    node, axis, ends = (np.concatenate([getattr(patch, name) for patch in patches]) for name in ("node", "axis", "ends"))
-    vertices, slopes = place_vertices(local, grid, node, axis, ends)
-    starts = np.cumsum([len(patch.axis) for patch in patches])[:-1]
-    places = zip(patches, np.split(vertices, starts), np.split(slopes, starts), strict=True)
-    settled = int(tile[0]) * grid.strides[0]
-    return [_piece(scene, local, grid, settled, *place) for place in places]
-
-
-def _samples(terms: Terms, points: Array) -> Samples:
-    return near_linear_single(terms, log_ratio(terms, points), _ROUNDING)
-
-
-def _piece(scene: Scene, terms: Terms, grid: Grid, settled: int, patch: Patch, vertices: Array, slopes: Array) -> Piece:
-    axis, faces = patch.axis, patch.faces
-    normals, colors, off = clothed(scene, terms, grid, vertices, slopes, faces, within=axis == AT_NODE)
-    at_border = patch.node % min(PART, TILE) == 0
-    shared = np.flatnonzero(np.logical_or.reduce([at_border[:, i] & (axis != i) for i in range(3)]))
-    keys = patch.keys(grid)[shared]
-    order = np.argsort(keys)
+    blocks = blocks_of(local, grid, tile)
+    if not len(blocks):
+        return None
+    patch = extract(blocks, tile, TILE, lambda nodes: _samples(local, grid, nodes))
+    if patch is None or not len(patch.faces):
+        return None
+    node, axis, faces = patch.node, patch.axis, patch.faces
+    vertices, slopes = place_vertices(local, grid, node, axis, patch.ends)
+    normals, colors, off = clothed(scene, local, grid, vertices, slopes, faces, within=axis == AT_NODE)
+    shared = np.flatnonzero(np.logical_or.reduce([(node[:, i] % TILE == 0) & (axis != i) for i in range(3)]))
     return Piece(
-        keys=keys[order],
-        settled=settled,
-        shared=shared[order],
+        keys=patch.keys(grid)[shared],
+        shared=shared,
         vertices=vertices,
         normals=normals,
         colors=colors,
@@ -157,3 +142,12 @@ def _piece(scene: Scene, terms: Terms, grid: Grid, settled: int, patch: Patch, v
         faces=faces,
         off=off,
     )
+
+
+def _samples(terms: Terms, grid: Grid, nodes: Numbers) -> Samples:
+    """The near-linear field at nodes (n, 3); -inf beyond a cut."""
+    values = near_linear_single(terms, log_ratio(terms, grid.points(nodes)), _ROUNDING)
+    for i, outside in enumerate(grid.outside):
+        if outside.any():
+            values[outside[np.minimum(nodes[:, i], len(outside) - 1)]] = -np.inf
+    return values

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from functools import cache
 from itertools import product
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +17,8 @@ from numpy.typing import NDArray
 # Corner number 4 x + 2 y + z; edges as their lower corner and axis.
 CORNERS = np.array(list(product((0, 1), repeat=3)))
 EDGES = [(corner, axis) for axis in range(3) for corner in range(8) if not CORNERS[corner][axis]]
+# For each case which edges are crossed, (256, 12).
+CROSSED = np.array([[(case >> corner ^ case >> (corner + (4 >> axis))) & 1 > 0 for corner, axis in EDGES] for case in range(256)])
 _EDGE_OF = {frozenset((corner, corner + (4 >> axis))): number for number, (corner, axis) in enumerate(EDGES)}
 
 
@@ -47,30 +48,9 @@ AMBIGUOUS = np.array(
 )
 
 
-class Tables(NamedTuple):
-    """The triangles of every cell: those of `case`, its ambiguous faces joined as the bits of `joined` say, are the edges
-    `edges[start[case, joined] : start[case, joined] + 3 * number[case, joined]]`."""
-
-    edges: NDArray[np.int64]  # (n,), three to a triangle, outward
-    start: NDArray[np.int64]  # (256, 64)
-    number: NDArray[np.int64]  # (256, 64)
-
-
 @cache
-def tables() -> Tables:
-    """Worked out once."""
-    edges, start, number = list[int](), *np.zeros((2, 256, 64), dtype=np.int64)
-    for case, ambiguous in enumerate(AMBIGUOUS.tolist()):
-        for joined in range(64):
-            if joined & ~ambiguous == 0:
-                found = triangles(case, joined)
-                start[case, joined], number[case, joined] = len(edges), len(found) // 3
-                edges += found
-    return Tables(np.array(edges, dtype=np.int64), start, number)
-
-
-def triangles(case: int, joined: int) -> list[int]:
-    """Edges, three to a triangle, outward, of the cell whose corners inside are the bits of `case`.
+def triangles(case: int, joined: int) -> NDArray[np.int8]:
+    """Edges (n,), three to a triangle, outward, of the cell whose corners inside are the bits of `case`.
 
     The inside corners of ambiguous faces are joined where `joined` has the face's bit.
     """
@@ -92,7 +72,7 @@ def triangles(case: int, joined: int) -> list[int]:
         while (edge := following.pop(loop[-1])) != loop[0]:
             loop.append(edge)
         result += _filled(loop)
-    return result
+    return np.array(result, dtype=np.int8)
 
 
 def _filled(loop: list[int]) -> list[int]:
@@ -102,7 +82,6 @@ def _filled(loop: list[int]) -> list[int]:
     return [edge for i in range(1, len(fan) - 1) for edge in (fan[0], fan[i + 1], fan[i])]
 
 
-@cache
 def _on_one_face(one: int, other: int) -> bool:
     corners = {corner + step for corner, axis in (EDGES[one], EDGES[other]) for step in (0, 4 >> axis)}
     return any(corners <= set(ring) for ring in FACES)

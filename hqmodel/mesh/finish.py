@@ -10,13 +10,12 @@ from numpy.typing import NDArray
 from hqmodel.field import Terms, near_linear_gradient
 from hqmodel.model import Scene
 
-from .compiled import compiled
 from .creases import Plane, creased
 from .decimate import simplified
 from .grid import Grid
 from .manifold import parted
 from .measure import depths, largest_distance
-from .mesh import Array, Mesh, Triangles, lengths, reflected
+from .mesh import Array, Mesh, Triangles, alike, lengths, reflected
 from .refine import to_surface
 from .shade import clothed, colored, on_caps, with_caps
 from .weld import Weld
@@ -35,31 +34,13 @@ _QUANTUM = 2.0**-20
 
 def pulls(faces: Triangles, off: NDArray[np.float32], normals: NDArray[np.float32], cell: float) -> NDArray[np.float32]:
     """The sum of `off` (F,), in quanta, over the smooth faces about each vertex, and their number, (V, 2); `normals` (V, 3)."""
-    result = np.zeros((len(normals), 2), dtype=np.float32)
-    _pull(faces, off, normals, _SMOOTH * cell, cell * _QUANTUM, result)
-    return result
-
-
-@compiled
-def _pull(
-    faces: Triangles,
-    off: NDArray[np.float32],
-    normals: NDArray[np.float32],
-    most: float,
-    quantum: float,
-    result: NDArray[np.float32],
-) -> None:
-    for f in range(len(faces)):
-        if abs(off[f]) < most:
-            alike = True
-            for i in range(3):
-                a, b = faces[f, i], faces[f, (i + 1) % 3]
-                cosine = normals[a, 0] * normals[b, 0] + normals[a, 1] * normals[b, 1] + normals[a, 2] * normals[b, 2]
-                alike = alike and cosine > _ALIKE
-            if alike:
-                for i in range(3):
-                    result[faces[f, i], 0] += np.rint(off[f] / quantum)
-                    result[faces[f, i], 1] += 1
+    smooth = (np.abs(off) < _SMOOTH * cell) & alike(normals, faces, _ALIKE)
+    off = np.where(smooth, np.rint(off / (cell * _QUANTUM)), 0)
+    result = np.zeros((2, len(normals)))
+    for i in range(3):
+        result[0] += np.bincount(faces[:, i], off, len(normals))
+        result[1] += np.bincount(faces[:, i], smooth, len(normals))
+    return result.T.astype(np.float32)
 
 
 def finished(
@@ -144,24 +125,13 @@ def _balance(
     step = np.clip(np.float32(_SHARE * _QUANTUM * grid.cell) * pull[:, 0] / np.maximum(pull[:, 1], 1), -furthest, furthest)
     for axis, plane, _ in grid.cuts:
         step[vertices[:, axis] == plane] = 0
-    _move(vertices, normals, faces, off, step.astype(np.float32, copy=False), np.isin(np.arange(3), mirrored))
-
-
-@compiled
-def _move(
-    vertices: Array,
-    normals: NDArray[np.float32],
-    faces: Triangles,
-    off: NDArray[np.float32],
-    step: NDArray[np.float32],
-    mirrored: NDArray[np.bool_],
-) -> None:
-    for v in range(len(vertices)):
-        for i in range(3):
-            if not (mirrored[i] and vertices[v, i] == 0):
-                vertices[v, i] += step[v] * normals[v, i]
-    for f in range(len(faces)):
-        off[f] -= (step[faces[f, 0]] + step[faces[f, 1]] + step[faces[f, 2]]) / 3
+    for i in range(3):
+        way = step * normals[:, i]
+        if i in mirrored:
+            way[vertices[:, i] == 0] = 0
+        vertices[:, i] += way
+    for i in range(3):
+        off -= step[faces[:, i]] / 3
 
 
 def _measured(

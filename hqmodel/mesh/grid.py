@@ -36,12 +36,6 @@ class Grid:
         return x, y, z
 
     @property
-    def strides(self) -> tuple[int, int, int]:
-        """How far apart neighbouring nodes along each axis are in a count of them that leaves four numbers to each."""
-        _, ny, nz = (len(nodes) for nodes in self.nodes)
-        return 4 * ny * nz, 4 * nz, 4
-
-    @property
     def cuts(self) -> list[tuple[int, float, float]]:
         """The planes that cut the body: axis, coordinate, and the side that is cut away."""
         planes = []
@@ -56,7 +50,7 @@ class Grid:
         """Corners (n, 3) of cubes of `size` cells, cut off at the grid's end, whose first nodes are `blocks` (n, 3)."""
         return self.points(blocks), self.points(blocks + size)
 
-    def points(self, node: NDArray[np.integer]) -> Array:
+    def points(self, node: NDArray[np.int64]) -> Array:
         """World positions (n, 3) of nodes numbered (n, 3), those past the end at it."""
         return np.stack([nodes[np.minimum(node[:, i], len(nodes) - 1)] for i, nodes in enumerate(self.nodes)]).T
 

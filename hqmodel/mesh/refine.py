@@ -7,10 +7,9 @@ from numpy.typing import NDArray
 
 from hqmodel.field import Terms, log_ratio, near_linear, near_linear_gradient
 
-from .compiled import compiled
-from .extract import AT_NODE, Axes, Nodes, Samples
+from .extract import AT_NODE, Samples
 from .grid import Grid
-from .mesh import Array, lengths
+from .mesh import Array, dots, lengths
 
 # A vertex nearer to a node than this share of the edge is moved off it and back onto the surface sideways, so that the
 # vertices around a node that lies almost on the surface stay apart.
@@ -23,79 +22,53 @@ _NEARLY = 5e-3
 _PRECISE = 1e-8
 
 
-def place_vertices(terms: Terms, grid: Grid, node: Nodes, axis: Axes, ends: Samples) -> tuple[Array, Array]:
+def place_vertices(
+    terms: Terms, grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64], ends: Samples
+) -> tuple[Array, Array]:
     """World positions (V, 3), on the surface, of the vertices on the grid's edges from `node` (V, 3) along `axis` (V,), and the
     near-linear field's gradients there, (V, 3). `ends` are a patch's.
 
     Exactly in the planes of the grid that their edges lie in at a mirror plane or a cut.
     """
-    points, share, rest = np.empty((len(node), 3)), np.empty(len(node)), np.empty(len(node), dtype=np.int64)
-    _guess(node, axis, ends, *grid.nodes, points, share)
-    values, slopes = near_linear_gradient(terms, points)
-    rest = rest[: _stepped(node, axis, *grid.nodes, values, slopes.T, points, share, rest)]
-    start, end = _on_edges(grid, node[rest], axis[rest])
-    share[rest] = _roots(terms, start, end, ends[rest])
-    points[rest] = start + (end - start) * share[rest, None]
-    near = np.flatnonzero((axis < AT_NODE) & ((share < _CROWDED) | (share > 1 - _CROWDED)))
+    points, slopes = grid.points(node), np.empty((3, len(node))).T
+    free = np.flatnonzero(axis < AT_NODE)
+    start, end = points[free], points[free].copy()
+    for i, nodes in enumerate(grid.nodes):
+        along = axis[free] == i
+        end[along, i] = nodes[node[free[along], i] + 1]
+    points[free], slopes[free], share = _on_edges(terms, start, end, ends[free])
+    again = np.flatnonzero(axis == AT_NODE)
+    near = np.flatnonzero((share < _CROWDED) | (share > 1 - _CROWDED))
     if near.size:
-        start, end = _on_edges(grid, node[near], axis[near])
-        aside, beside = (start + (end - start) * np.clip(share[near, None], d, 1 - d) for d in (_CROWDED, _APART))
-        points[near] = _projected(terms, aside, beside, _held(grid, node[near], axis[near]), grid.cell)
-    again = np.union1d(rest, near)
+        way, share = end[near] - start[near], share[near, None]
+        aside, beside = (start[near] + way * np.clip(share, d, 1 - d) for d in (_CROWDED, _APART))
+        points[free[near]] = _projected(terms, aside, beside, _held(grid, node[free[near]], axis[free[near]]), grid.cell)
+        again = np.append(again, free[near])
     slopes[again] = near_linear_gradient(terms, points[again])[1]
     return points, slopes
 
 
-def _on_edges(grid: Grid, node: Nodes, axis: Axes) -> tuple[Array, Array]:
-    """Where edges begin and end, (n, 3) each."""
-    return grid.points(node), grid.points(node + (axis[:, None] == np.arange(3)))
+def _on_edges(terms: Terms, start: Array, end: Array, ends: Samples) -> tuple[Array, Array, Array]:
+    """Where edges from start to end (n, 3) meet the surface: the points (n, 3), the gradients there (n, 3), and the shares of the
+    edges (n,).
+
+    One Newton step from where the samples at the ends put it, as these are nearly linear; where that is not enough, a root.
+    """
+    share = ends[:, 0] / (ends[:, 0] - ends[:, 1]).astype(float)
+    points = start + (end - start) * share[:, None]
+    values, slopes = near_linear_gradient(terms, points)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        step = -values / dots(slopes, end - start)
+        near = (np.abs(step) < _NEARLY) & (share + step > 0) & (share + step < 1)
+    share[near] += step[near]
+    rest = np.flatnonzero(~near)
+    share[rest] = _roots(terms, start[rest], end[rest], ends[rest])
+    points = start + (end - start) * share[:, None]
+    slopes[rest] = near_linear_gradient(terms, points[rest])[1]
+    return points, slopes, share
 
 
-@compiled
-def _guess(node: Nodes, axis: Axes, ends: Samples, x: Array, y: Array, z: Array, points: Array, share: Array) -> None:
-    """The points, and shares of the edges, where the samples at the ends put the surface, as these are nearly linear."""
-    nodes = (x, y, z)
-    for v in range(len(node)):
-        points[v, 0], points[v, 1], points[v, 2] = x[node[v, 0]], y[node[v, 1]], z[node[v, 2]]
-        share[v] = 0.5
-        if axis[v] < AT_NODE:
-            i = axis[v]
-            start, end = nodes[i][node[v, i]], nodes[i][node[v, i] + 1]
-            share[v] = ends[v, 0] / np.float64(ends[v, 0] - ends[v, 1])
-            points[v, i] = start + (end - start) * share[v]
-
-
-@compiled
-def _stepped(
-    node: Nodes,
-    axis: Axes,
-    x: Array,
-    y: Array,
-    z: Array,
-    values: Array,
-    slopes: Array,
-    points: Array,
-    share: Array,
-    rest: NDArray[np.int64],
-) -> int:
-    """One Newton step along the edges, with the field's values (V,) and slopes (3, V); where that is not enough, the vertex is
-    one of the `rest`. How many these are."""
-    nodes, count = (x, y, z), 0
-    for v in range(len(node)):
-        if axis[v] < AT_NODE:
-            i = axis[v]
-            start, end = nodes[i][node[v, i]], nodes[i][node[v, i] + 1]
-            step = -values[v] / (slopes[i, v] * (end - start))
-            if abs(step) < _NEARLY and 0 < share[v] + step < 1:
-                share[v] += step
-                points[v, i] = start + (end - start) * share[v]
-            else:
-                rest[count] = v
-                count += 1
-    return count
-
-
-def _held(grid: Grid, node: Nodes, axis: Axes) -> NDArray[np.bool_]:
+def _held(grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64]) -> NDArray[np.bool_]:
     """Coordinates (n, 3) that must not change: those in a mirror plane or a cut, across the edge."""
     held = np.zeros(node.shape, dtype=bool)
     for i, (nodes, outside) in enumerate(zip(grid.nodes, grid.outside, strict=True)):

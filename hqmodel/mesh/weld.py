@@ -13,15 +13,13 @@ from .mesh import Array, Triangles
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """One tile's triangles. `keys` (n,) name the edges of the vertices `shared` (n,), which other tiles may have too, in rising
-    order; pieces that come later have none below `settled`.
+    """One tile's triangles. `keys` (n,) name the edges of the vertices `shared` (n,), which other tiles may have too.
 
     `off` (F,) is how far each face's middle lies below the surface; `pull` (V, 2) the sum and the number of those of the
     smooth faces about each vertex. `pinched` (V,) tells vertices where two sheets may touch.
     """
 
     keys: NDArray[np.int64]
-    settled: int
     shared: NDArray[np.intp]
     vertices: Array
     normals: NDArray[np.float32]
@@ -41,8 +39,7 @@ class Weld:
     """A mesh that grows by pieces, in memory little larger than itself."""
 
     def __init__(self) -> None:
-        self._keys = np.empty(0, dtype=np.int64)  # those that may come again, in rising order,
-        self._numbers = np.empty(0, dtype=np.int32)  # and their vertices
+        self._known: dict[int, int] = {}
         self._columns: dict[str, _Column] = {}
 
     def __bool__(self) -> bool:
@@ -52,26 +49,18 @@ class Weld:
         """Join a piece on: vertices that an earlier one has already are taken from there."""
         before = len(self._columns["vertices"].rows) if self else 0
         new = np.ones(len(piece.vertices), dtype=bool)
-        self._forget(piece.settled)
-        at = np.searchsorted(self._keys, piece.keys)
-        old = np.append(self._keys, -1)[at] == piece.keys
-        earlier = self._numbers[at[old]]
+        earlier = np.array([self._known.get(key, -1) for key in piece.keys.tolist()], dtype=np.int32)
+        old = earlier >= 0
         new[piece.shared[old]] = False
         number = np.cumsum(new, dtype=np.int32) + np.int32(before - 1)
-        number[piece.shared[old]] = earlier
-        self._keys = np.insert(self._keys, at[~old], piece.keys[~old])
-        self._numbers = np.insert(self._numbers, at[~old], number[piece.shared[~old]])
+        number[piece.shared[old]] = earlier[old]
+        self._known.update(zip(piece.keys[~old].tolist(), number[piece.shared[~old]].tolist(), strict=True))
         for name in _SUMS if before else ():
-            self._columns[name].rows[earlier] += getattr(piece, name)[piece.shared[old]]
+            self._columns[name].rows[earlier[old]] += getattr(piece, name)[piece.shared[old]]
         for name in _OF_VERTICES:
             self._extend(name, getattr(piece, name)[new])
         self._extend("faces", number[piece.faces])
         self._extend("off", piece.off)
-
-    def _forget(self, settled: int) -> None:
-        """Keys below that don't come again."""
-        count = int(np.searchsorted(self._keys, settled))
-        self._keys, self._numbers = self._keys[count:], self._numbers[count:]
 
     def _extend(self, name: str, rows: NDArray[Any]) -> None:
         self._columns.setdefault(name, _Column(rows)).extend(rows)
