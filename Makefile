@@ -1,6 +1,7 @@
 # make run    sets everything up and opens the modeller (without a display it renders and exports a preset into out/)
 # make test   sets everything up and runs every check
-# make bench  runs the benchmarks        make clean  removes what these made
+# make bench  runs the benchmarks        make reliability  the long runs behind docs/reliability.md
+# make clean  removes what these made
 
 VENV ?= .venv
 BIN := $(VENV)/bin
@@ -15,7 +16,7 @@ DISPLAYS := xvfb xauth xdotool
 SUITABLE := -c 'import sys, ensurepip; sys.exit(sys.version_info < (3, 11))' 2>/dev/null
 NEEDS_PYTHON := $(if $(wildcard $(BIN)/python),,$(shell for p in $(PYTHONS); do $$p $(SUITABLE) && exit; done; echo python3-venv))
 
-.PHONY: run test demo bench pictures goldens schema clean system-run system-test
+.PHONY: run test demo bench reliability pictures goldens schema clean system-run system-test
 .DEFAULT_GOAL := run
 
 run: system-run $(VENV)/.installed
@@ -46,6 +47,9 @@ bench: system-run $(VENV)/.installed-for-benchmarks
 	$(BIN)/python -m benchmarks.preview
 	$(BIN)/python -m benchmarks.solvers
 	$(BIN)/python -m benchmarks.fitting
+
+reliability: system-test $(VENV)/.installed-for-tests
+	$(BIN)/python -m benchmarks.reliability
 
 pictures: system-test $(VENV)/.installed
 	LIBGL_ALWAYS_SOFTWARE=1 xvfb-run -a -s "-screen 0 1400x900x24" $(BIN)/python docs/pictures.py

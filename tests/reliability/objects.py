@@ -35,7 +35,7 @@ def alive(ctx: moderngl.Context) -> Alive:
 def alive_after(ctx: moderngl.Context, scenes: int) -> list[Alive]:
     """The objects after each of four quarters of so many scenes, drawn one after the other in one preview at changing sizes."""
     preview, seen = Preview(ctx), []
-    presets = [files.load(preset.path) for preset in files.builtin()][:12]
+    presets = [files.load(preset.path) for preset in files.builtin()[:6]]
     for number in range(1, scenes + 1):
         preview.show(presets[number % len(presets)])
         camera = usual(preview.scene.dimension).framing(preview.region.low, preview.region.high, 1.5)

@@ -20,10 +20,10 @@ def test_opengl_objects_are_given_back() -> None:
     ctx = offscreen()
     with ctx:
         before = alive(ctx)
-        quarters = alive_after(ctx, 48)
+        quarters = alive_after(ctx, 24)
         after = alive(ctx)
     ctx.release()
-    assert len(set(quarters)) == 1, "after the first dozen scenes there are as many as after the last"
+    assert len(set(quarters)) == 1, "after the first six scenes there are as many as after the last"
     assert quarters[0] > before
     assert after.textures == before.textures
 

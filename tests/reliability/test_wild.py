@@ -11,7 +11,7 @@ from .wild import check, drawn
 
 
 def test_fields_bounds_regions_and_meshes_of_wild_scenes() -> None:
-    assert {check(seed) for seed in range(24)} >= {"a mesh", "bounds", "no surface"}
+    assert {check(seed) for seed in range(16)} >= {"a mesh", "bounds", "no surface"}
 
 
 @pytest.fixture(scope="module")

@@ -121,7 +121,7 @@ def check(seed: int) -> str:
     try:
         body = polygonize(scene, CELLS)
     except MeshError as error:
-        return str(error).partition(":")[0]
+        return str(error).partition(":")[0].partition(", got")[0]
     assert len(body.faces) and np.all(np.isfinite(body.vertices)), "the mesh has faces at places that are numbers"
     assert body.normals is not None and np.all(np.isfinite(body.normals)), "and directions too"
     return "a mesh"
