@@ -63,8 +63,8 @@ def _closed(mesh: Mesh) -> tuple[bool, int]:
     count = len(mesh.vertices)
     start = mesh.faces.ravel().astype(np.int64)
     end = np.roll(mesh.faces, -1, axis=1).ravel().astype(np.int64)
-    forward = np.sort(start * count + end)
-    backward = np.sort(end * count + start)
-    simple = bool(np.all(np.diff(forward) > 0)) if len(forward) else False
-    edges = np.unique(np.minimum(start, end) * count + np.maximum(start, end))
-    return simple and bool(np.array_equal(forward, backward)), len(edges)
+    up, down = start < end, start > end
+    forward, backward = np.sort(start[up] * count + end[up]), np.sort(end[down] * count + start[down])
+    if len(forward) + len(backward) == len(start) and np.array_equal(forward, backward) and bool(np.all(np.diff(forward) > 0)):
+        return len(forward) > 0, len(forward)
+    return False, len(np.unique(np.minimum(start, end) * count + np.maximum(start, end)))
