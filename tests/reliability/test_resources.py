@@ -14,6 +14,8 @@ from hqmodel.gpu import offscreen
 from .objects import alive, alive_after
 
 ROOT = Path(__file__).parents[2]
+# Where no X server listens; an empty name would mean the first one that does, such as the window tests' own.
+NO_DISPLAY = ":4711"
 
 
 def test_opengl_objects_are_given_back() -> None:
@@ -32,13 +34,14 @@ def test_opengl_objects_are_given_back() -> None:
     "lacking",
     [
         {"MESA_GL_VERSION_OVERRIDE": "2.1"},
-        {"__EGL_VENDOR_LIBRARY_FILENAMES": "/nonexistent", "DISPLAY": ""},
+        {"__EGL_VENDOR_LIBRARY_FILENAMES": "/nonexistent"},
         {"LIBGL_DRIVERS_PATH": "/nonexistent", "GBM_BACKENDS_PATH": "/nonexistent", "__EGL_VENDOR_LIBRARY_DIRS": "/nonexistent"},
     ],
 )
 def test_without_opengl_one_sentence_says_what_to_install(tmp_path: Path, lacking: dict[str, str]) -> None:
     command = [sys.executable, "-m", "hqmodel", "render", "soft-die", "-o", str(tmp_path / "a.png"), "--size", "16x16"]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, env={**os.environ, **lacking}, cwd=ROOT)
+    environment = {**os.environ, "DISPLAY": NO_DISPLAY, **lacking}
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment, cwd=ROOT)
     assert (done.returncode, done.stdout) == (3, "")
     assert done.stderr.count("\n") == 1
     assert "OpenGL 3.3 is needed" in done.stderr
