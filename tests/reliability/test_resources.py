@@ -37,12 +37,12 @@ def test_opengl_objects_are_given_back() -> None:
     ],
 )
 def test_without_opengl_one_sentence_says_what_to_install(tmp_path: Path, lacking: dict[str, str]) -> None:
-    """Whether or not an X server is there, as the window tests' is; what Mesa says of itself is kept quiet."""
+    """Whether or not an X server is there, as the window tests' is; what Mesa says beside that is not ours."""
     command = [sys.executable, "-m", "hqmodel", "render", "soft-die", "-o", str(tmp_path / "a.png"), "--size", "16x16"]
-    environment = {**os.environ, "LIBGL_DEBUG": "quiet", **lacking}
+    environment = {**os.environ, **lacking}
     done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment, cwd=ROOT)
     assert (done.returncode, done.stdout) == (3, "")
-    assert done.stderr.count("\n") == 1
-    assert "OpenGL 3.3 is needed" in done.stderr
-    assert "libegl1" in done.stderr
+    (told,) = [line for line in done.stderr.splitlines() if not line.startswith("libGL error")]
+    assert "OpenGL 3.3 is needed" in told
+    assert "libegl1" in told
     assert not list(tmp_path.iterdir())
