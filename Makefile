@@ -28,7 +28,7 @@ run: system-run $(VENV)/.installed
 
 demo:
 	@mkdir -p out
-	@demo=$${DEMO:-$$($(BIN)/hqmodel presets | head -n 1 | cut -d ' ' -f 1)}; \
+	@demo=$${DEMO:-apple}; \
 	$(BIN)/hqmodel render "$$demo" -o "out/$$demo.png" && \
 	$(BIN)/hqmodel export "$$demo" -o "out/$$demo.glb" -o "out/$$demo.obj"
 
