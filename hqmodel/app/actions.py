@@ -15,7 +15,6 @@ from hqmodel.model import VIEWS, Scene, Strip
 from .asks import About, ChooseFile, ExportAs, ExportSettings, New, Palette, Problem, Quit, Shortcuts, Tour
 from .catalogue import catalogue
 from .forecast import Forecast
-from .importing import ENDINGS
 from .intents import Choose, Edit, Equip, Select
 from .tools.arranging import AXES
 from .tools.kit import TOOLS
@@ -95,7 +94,9 @@ def _versions(session: Session) -> None:
 
 
 def _import(session: Session) -> None:
-    session.dialogs.append(ChooseFile("import", session.folder, endings=ENDINGS))
+    from hqmodel.fit import FORMATS  # late: it takes a second, and few need it
+
+    session.dialogs.append(ChooseFile("import", session.folder, endings=FORMATS))
 
 
 def _show_cloud(session: Session) -> None:

@@ -16,8 +16,6 @@ from .jobs import Job
 
 # Points that are shown, at most: enough to judge by, few enough to draw in every frame.
 SHOWN = 4000
-# The endings of what can be fitted to.
-ENDINGS = (".ply", ".obj", ".stl", ".xyz")
 
 
 @dataclass(frozen=True, eq=False)

@@ -32,9 +32,9 @@ from .asks import (
     Recover,
     Unsaved,
 )
-from .document import Document
+from .document import ENDING, Document
 from .export import ExportJob
-from .importing import ENDINGS, Cloud, FitJob, Fitted
+from .importing import Cloud, FitJob, Fitted
 from .intents import (
     Adjust,
     Animate,
@@ -454,10 +454,12 @@ class Session:
 
     def take_file(self, path: Path) -> None:
         """A file was dropped on the window: a preset opens, points and meshes are fitted."""
-        if path.suffix.lower() in ENDINGS:
-            self.dialogs.append(ImportAs(ImportSettings(path)))
-        else:
+        if path.suffix.lower() == ENDING:
             self.apply([Open(path)])
+            return
+        from hqmodel.fit import FORMATS  # late: it takes a second, and few need it
+
+        self.apply([Ask(ImportAs(ImportSettings(path))) if path.suffix.lower() in FORMATS else Open(path)])
 
     def start_fit(self, settings: ImportSettings) -> None:
         """Begin to fit hyperquadrics to a file's points, in the background."""

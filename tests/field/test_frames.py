@@ -121,20 +121,19 @@ def test_a_frame_is_a_sphere_at_gamma_2(frame: Array) -> None:
 @pytest.mark.parametrize("name", REGULAR)
 def test_regular_and_semi_regular_solids(name: str) -> None:
     hull = outer(name)
-    edges = _edges(hull)
-    corners, faces, count, volume = REGULAR[name]
-    assert (len(hull.vertices), _faces(hull), len(edges)) == (corners, faces, count)
-    np.testing.assert_allclose(edges, edges[0], rtol=1e-7)
+    _holds(hull, *REGULAR[name])
     away = np.linalg.norm(hull.points - hull.points.mean(axis=0), axis=1)
     np.testing.assert_allclose(away, away[0], rtol=1e-7)
-    assert hull.volume == pytest.approx(volume * edges[0] ** 3, rel=1e-7)
 
 
 @pytest.mark.parametrize("name", RHOMBIC)
 def test_rhombic_solids(name: str) -> None:
-    hull = outer(name)
+    _holds(outer(name), *RHOMBIC[name])
+
+
+def _holds(hull: ConvexHull, corners: int, faces: int, count: int, volume: float) -> None:
+    """So many corners, faces and edges, all edges as long, and the volume where they are of length 1."""
     edges = _edges(hull)
-    corners, faces, count, volume = RHOMBIC[name]
     assert (len(hull.vertices), _faces(hull), len(edges)) == (corners, faces, count)
     np.testing.assert_allclose(edges, edges[0], rtol=1e-7)
     assert hull.volume == pytest.approx(volume * edges[0] ** 3, rel=1e-7)

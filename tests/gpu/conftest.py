@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import moderngl
 import pytest
 
-from hqmodel.gpu import offscreen
+from hqmodel.gpu import Preview, offscreen
 
 
 @pytest.fixture(scope="session")
@@ -24,3 +24,10 @@ def ctx(_context: moderngl.Context) -> Iterator[moderngl.Context]:
         assert _context.error == "GL_NO_ERROR"
         yield _context
         assert _context.error == "GL_NO_ERROR"
+
+
+@pytest.fixture
+def preview(ctx: moderngl.Context) -> Iterator[Preview]:
+    made = Preview(ctx)
+    yield made
+    made.release()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 import moderngl
@@ -19,13 +18,6 @@ from .scenes import ball, solid
 
 SIZE = (96, 80)
 CAMERA = Camera()
-
-
-@pytest.fixture
-def preview(ctx: moderngl.Context) -> Iterator[Preview]:
-    made = Preview(ctx)
-    yield made
-    made.release()
 
 
 def _finished(preview: Preview, lit_strip: tuple[int, int] | None = None, ghosts: bool = False) -> NDArray[np.int64]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Iterator
 from dataclasses import replace
 
 import moderngl
@@ -19,13 +18,6 @@ from .scenes import ball, solid
 
 SIZE = (90, 70)
 CAMERA = Camera()
-
-
-@pytest.fixture
-def preview(ctx: moderngl.Context) -> Iterator[Preview]:
-    made = Preview(ctx)
-    yield made
-    made.release()
 
 
 def _finish(preview: Preview, mode: str = "clay", camera: Camera = CAMERA) -> int:

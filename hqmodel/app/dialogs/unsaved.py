@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from imgui_bundle import imgui
 
 from ..asks import Dialog, Overwrite, Unsaved
@@ -14,15 +16,18 @@ _OVERWRITE_ANSWERS = {"Save As...": "elsewhere", "Overwrite": "overwrite", "Canc
 
 def draw(dialog: Dialog) -> list[Intent]:
     assert isinstance(dialog, Unsaved)
-    imgui.text_unformatted(f"Save the changes to {dialog.name}?")
-    imgui.text_disabled("Without saving they are lost.")
-    pressed = buttons(list(_ANSWERS))
-    return [] if pressed is None else [Answer(_ANSWERS[pressed])]
+    return _asked(f"Save the changes to {dialog.name}?", "Without saving they are lost.", _ANSWERS)
 
 
 def draw_overwrite(dialog: Dialog) -> list[Intent]:
     assert isinstance(dialog, Overwrite)
-    imgui.text_unformatted(f"{dialog.path.name} was changed by another program since it was opened here.")
-    imgui.text_disabled("Overwriting replaces that; it is kept among the earlier versions.")
-    pressed = buttons(list(_OVERWRITE_ANSWERS))
-    return [] if pressed is None else [Answer(_OVERWRITE_ANSWERS[pressed])]
+    question = f"{dialog.path.name} was changed by another program since it was opened here."
+    return _asked(question, "Overwriting replaces that; it is kept among the earlier versions.", _OVERWRITE_ANSWERS)
+
+
+def _asked(question: str, consequence: str, answers: Mapping[str, str | None]) -> list[Intent]:
+    """Two lines and a button for each answer."""
+    imgui.text_unformatted(question)
+    imgui.text_disabled(consequence)
+    pressed = buttons(list(answers))
+    return [] if pressed is None else [Answer(answers[pressed])]

@@ -92,7 +92,7 @@ def draw(session: Session, hand: Hand, aim: Aim, pen: Pen) -> None:
     if isinstance(gesture, Chop):
         start = np.array(gesture.start)
         pen.line(np.array([start, start + held.values]), LIT, 2.0)
-    pen.text((hand.at[0] + pen.em, hand.at[1] + 1.4 * pen.em), held.told)
+    pen.text((hand.at[0] + pen.em, hand.at[1] + 1.4 * pen.em), held.told(session.scene))
 
 
 def named(session: Session, grip: Grip) -> str:

@@ -54,7 +54,7 @@ class Move(Arrange):
         by = np.array(AXES[self.axis]) * values[0] if self.axis else np.array(values)
         return edit.move_shapes(self.before, self.shapes, by)
 
-    def told(self, values: Values) -> str:
+    def told(self, values: Values, after: Scene) -> str:
         return "move " + "  ".join(f"{value:+.3f}" for value in values) + self._along()
 
     def typed(self, number: float) -> Values:
@@ -81,7 +81,7 @@ class Turn(Arrange):
             axis = AXES["z"]
         return edit.turn_shapes(self.before, self.shapes, edit.about(tuple(axis), values[0]), self.pivot)
 
-    def told(self, values: Values) -> str:
+    def told(self, values: Values, after: Scene) -> str:
         return f"turn {values[0]:+.1f}°" + (f"   about {self.axis}" if self.axis else "")
 
 
@@ -102,5 +102,5 @@ class Scale(Arrange):
             return edit.stretch_shapes(self.before, self.shapes, AXES[self.axis], values[0], self.pivot)
         return edit.scale_shapes(self.before, self.shapes, values[0], self.pivot)
 
-    def told(self, values: Values) -> str:
+    def told(self, values: Values, after: Scene) -> str:
         return f"scale {values[0]:.3f}{self._along()}"

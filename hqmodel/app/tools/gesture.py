@@ -38,8 +38,8 @@ class Gesture(ABC):
         """What becomes of the scene. Raises edit.EditError where it can't be."""
 
     @abstractmethod
-    def told(self, values: Values) -> str:
-        """The values as the artist reads them."""
+    def told(self, values: Values, after: Scene) -> str:
+        """The values, and what they have made of the scene, as the artist reads them."""
 
     def typed(self, number: float) -> Values:
         """The values that a typed number stands for."""
@@ -77,10 +77,10 @@ class Held:
         """What becomes of the scene. Raises edit.EditError where it can't be."""
         return self.gesture.scene(self.values)
 
-    @property
-    def told(self) -> str:
-        """What to show beside the pointer."""
-        return f"[{self.typed}]  {self.gesture.told(self.values)}" if self.typed else self.gesture.told(self.values)
+    def told(self, after: Scene) -> str:
+        """What to show beside the pointer while the scene is this one."""
+        told = self.gesture.told(self.values, after)
+        return f"[{self.typed}]  {told}" if self.typed else told
 
 
 def rounded(values: Values, step: float) -> Values:

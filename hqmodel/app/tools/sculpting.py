@@ -50,8 +50,7 @@ class Push(Gesture):
                 after = edit.slide_strip(self.before, grip.shape, grip.strip, grip.side, distance)
         return edit.remove_strip(after, grip.shape, grip.strip) if self._out(after) else after
 
-    def told(self, values: Values) -> str:
-        after = self.scene(values)
+    def told(self, values: Values, after: Scene) -> str:
         if len(after.shapes[self.grip.shape].strips) < len(self.before.shapes[self.grip.shape].strips):
             return "out of the body: let go to remove"
         strip = after.shapes[self.grip.shape].strips[self.grip.strip]
@@ -90,7 +89,7 @@ class Tilt(Gesture):
         turn = rotation_matrix(edit.about(tuple(axis), values[0]))
         return edit.tilt_strip(self.before, grip.shape, grip.strip, np.array(self.pivot) * image, turn)
 
-    def told(self, values: Values) -> str:
+    def told(self, values: Values, after: Scene) -> str:
         return f"tilt {values[0]:+.1f}°"
 
 
@@ -118,7 +117,7 @@ class Soften(Gesture):
             raise edit.EditError(f"exponent: expected {_GAMMA.expected()}, got {values[0]:g}")
         return edit.scale_exponents(self.before, self.shape, values[0] / self.gamma, None if self.whole else [self.strip])
 
-    def told(self, values: Values) -> str:
+    def told(self, values: Values, after: Scene) -> str:
         return f"exponent {values[0]:.3g}{'   whole shape' if self.whole else ''}"
 
     def other(self) -> Gesture:
@@ -153,7 +152,7 @@ class Pat(Gesture):
         image = np.array(self.image)
         return edit.pat(self.before, self.shape, image * self.point, image * self.normal, values[0], self.gamma)
 
-    def told(self, values: Values) -> str:
+    def told(self, values: Values, after: Scene) -> str:
         return f"depth {values[0]:.3f}   exponent {self.gamma:.3g}"
 
 
@@ -192,7 +191,7 @@ class Chop(Gesture):
         keeps = float(normal @ (self.body.centre - origins[0])) < 0
         return origins[0], normal if keeps != self.flipped else -normal
 
-    def told(self, values: Values) -> str:
+    def told(self, values: Values, after: Scene) -> str:
         return "draw a line across the body" if hypot(*values) < _SHORT else "Tab: the other piece goes"
 
     def typed(self, number: float) -> Values:
@@ -219,7 +218,7 @@ class Harden(Gesture):
     def scene(self, values: Values) -> Scene:
         return edit.put(self.before, ("shapes", self.shape, "hardness"), values[0])
 
-    def told(self, values: Values) -> str:
+    def told(self, values: Values, after: Scene) -> str:
         return f"hardness {values[0]:.3g}"
 
 

@@ -59,8 +59,9 @@ def test_faces_push_and_tab_changes_what_moves() -> None:
     assert gesture.other().other().other() == gesture
     assert held(gesture, *moved, typed="0.5").values == (0.5,)
     assert held(gesture, *moved, typed="-").values == held(gesture, *moved).values, "a sign alone is no number yet"
-    assert "half-width 1.150" in held(gesture, *moved).told
-    assert held(gesture, typed="0.5").told.startswith("[0.5]")
+    pushed = held(gesture, *moved)
+    assert "half-width 1.150" in pushed.told(pushed.scene)
+    assert held(gesture, typed="0.5").told(BLOCK).startswith("[0.5]")
 
 
 def test_a_mirrored_face_is_pushed_outwards_too() -> None:
