@@ -20,12 +20,8 @@ import numpy as np
 from hqmodel import files
 from hqmodel.app.asks import ExportSettings
 from hqmodel.app.export import ExportJob
-from hqmodel.app.intents import Do, Select
 from hqmodel.app.session import Session
-from hqmodel.app.tools.aim import Aim
 from hqmodel.gpu import offscreen
-from hqmodel.model import Camera
-from tests.app.tools.test_random import MOST, begun, picked, pulled
 from tests.reliability import kills, mutants, wild
 from tests.reliability.objects import alive_after
 
@@ -75,17 +71,7 @@ def soaked() -> object:
     """Random gestures, edits and undos in one session: memory in MiB after each quarter."""
     chance, session, sizes = np.random.default_rng(11), Session(files.Settings()), []
     for number in range(1, GESTURES + 1):
-        session.apply([Select(*picked(session.scene, chance))])
-        crowded = session.scene.strip_count > MOST
-        if crowded or chance.random() < 0.15:
-            session.apply([Do("delete" if crowded else str(chance.choice(["rounder", "carve", "duplicate", "undo", "redo"])))])
-            if not any(shape.visible and shape.coefficient > 0 for shape in session.scene.shapes):
-                session.apply([Do("add block")])
-            continue
-        camera = Camera(distance=8.0, azimuth=float(chance.uniform(0, 360)), elevation=float(chance.uniform(-80, 80)))
-        gesture = begun(session, Aim(camera, (900, 700)), chance)
-        if gesture is not None:
-            pulled(session, gesture, chance)
+        stirred(session, chance, ["rounder", "carve", "duplicate", "undo", "redo"])
         if number % (GESTURES // 4) == 0:
             sizes.append(_resident())
     return {"gestures": GESTURES, "steps kept": len(session.history.labels), "MiB": sizes}

@@ -19,7 +19,7 @@ from .dimension import extruded, flattened
 from .exponents import scale_exponents
 from .frames import SHARP, STARTS, frame_of, framed_scene, make_orthonormal, replace_frame, set_frame, turn_frame
 from .history import History
-from .paths import EditError, get, locations, parse, put, reset
+from .paths import EditError, get, locations, parse, put, put_fields, reset
 from .planes import push_plane, slide_strip, spread_planes, tilt_strip
 from .primitives import PRIMITIVES, new_scene, new_shape, prism
 from .shapes import add_shape, duplicate_shape, move_shape, remove_shapes
@@ -66,6 +66,7 @@ __all__ = [
     "prism",
     "push_plane",
     "put",
+    "put_fields",
     "quaternion",
     "remove_animation",
     "remove_shapes",

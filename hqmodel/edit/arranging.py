@@ -15,7 +15,7 @@ from hqmodel.field import rotation_matrix
 from hqmodel.model import Scene, Shape, Transform
 
 from .angles import Quaternion, about, composed
-from .paths import changed, get, put
+from .paths import get, put, put_fields
 from .shapes import duplicate_shape, move_shape
 
 Array = NDArray[np.float64]
@@ -85,7 +85,7 @@ def _transform(scene: Scene, index: int) -> Transform:
 
 
 def _put(scene: Scene, index: int, **changes: object) -> Scene:
-    return put(scene, ("shapes", index, "transform"), changed(_transform(scene, index), **changes))
+    return put_fields(scene, ("shapes", index, "transform"), **changes)
 
 
 def _triple(values: Array) -> tuple[float, float, float]:

@@ -15,9 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 from hqmodel.field import Terms, images, log_ratio, region, term_weights, value
 from hqmodel.model import Scene, Shape, Strip
 
-from .paths import EditError, get
+from .paths import EditError, get, put
 from .planes import placed
-from .strips import add_strip
 
 # A new strip's other plane lies this many times as far off as the body's far side: |h|^gamma is next to nothing there.
 CLEAR = 1.4
@@ -56,8 +55,7 @@ def pat(scene: Scene, shape: int, point: ArrayLike, normal: ArrayLike, depth: fl
     near = (length * (1 - h) - 2 * depth) / (1 + h) if h < inf else -depth
     near = max(near, -length * _DEEPEST)
     start = float(out @ at)
-    strip = placed(Strip(normal=(0, 0, 1), gamma=gamma), scene.shapes[shape], scene.slice, out, start + near, start - length)
-    return add_strip(scene, shape, strip)
+    return _bounded(scene, shape, out, start + near, start - length, gamma)
 
 
 def chop(scene: Scene, shapes: Iterable[int], point: ArrayLike, normal: ArrayLike, gamma: float = CHOP) -> Scene:
@@ -72,10 +70,15 @@ def chop(scene: Scene, shapes: Iterable[int], point: ArrayLike, normal: ArrayLik
         shape: Shape = get(scene, ("shapes", index))
         low, high = _extent(shape, scene, out)
         if low < start < high:
-            strip = Strip(normal=(0, 0, 1), gamma=gamma)
-            far = start - CLEAR * (start - low)
-            scene = add_strip(scene, index, placed(strip, shape, scene.slice, out, start, far))
+            scene = _bounded(scene, index, out, start, start - CLEAR * (start - low), gamma)
     return scene
+
+
+def _bounded(scene: Scene, shape: int, out: NDArray[np.float64], near: float, far: float, gamma: float) -> Scene:
+    """The shape with a strip more, its planes at out . x = near and = far."""
+    strip = Strip(normal=(0.0, 0.0, 1.0), gamma=gamma)
+    planes = placed(strip, scene.shapes[shape], scene.slice, out, near, far)
+    return put(scene, ("shapes", shape, "strips"), (*scene.shapes[shape].strips, strip.__dict__ | planes))
 
 
 def _room(scene: Scene, shape: int, at: NDArray[np.float64]) -> float:

@@ -6,7 +6,7 @@ from collections.abc import Collection
 
 from hqmodel.model import FIELDS, Scene
 
-from .paths import get, put
+from .paths import get, put_fields
 
 _GAMMA = FIELDS["shapes[].strips[].gamma"]
 
@@ -25,7 +25,7 @@ def scale_exponents(scene: Scene, shape: int, factor: float, strips: Collection[
         for index, strip in enumerate(old.strips)
     ]
     outer = {name: g.changed(gamma=_scaled(g.gamma, factor)) if name in groups else g for name, g in old.groups.items()}
-    return put(scene, ("shapes", shape), {**old.__dict__, **(old.model_extra or {}), "strips": tuple(new), "groups": outer})
+    return put_fields(scene, ("shapes", shape), strips=tuple(new), groups=outer)
 
 
 def _scaled(gamma: float, factor: float) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from ast import literal_eval
 from collections.abc import Iterable
-from typing import Any, TypeVar
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -13,7 +13,6 @@ from hqmodel.model import Scene, Shape, Strip, faults, place, shown
 from hqmodel.model.scene import Value
 
 Location = tuple[str | int, ...]
-V = TypeVar("V", bound=Value)
 
 _STEP = re.compile(r"""(?:^|\.)(?P<word>\w+)|\[(?P<index>\d{1,9})\]|\[(?P<text>'(?:[^'\\]|\\.)*'|"(?:[^"\\]|\\.)*")\]""")
 
@@ -87,12 +86,10 @@ def put(scene: Scene, path: str | Location, value: object) -> Scene:
         raise EditError(faults(error)[0]) from None
 
 
-def changed(value: V, **changes: object) -> V:
-    """The value with some fields changed. Raises EditError where the result would not be a valid one."""
-    try:
-        return value.changed(**changes)
-    except ValidationError as error:
-        raise EditError(faults(error)[0]) from None
+def put_fields(scene: Scene, path: str | Location, **changes: object) -> Scene:
+    """The scene with some fields of the value at a path changed. Raises EditError as `put` does."""
+    value = get(scene, path)
+    return put(scene, path, {**value.__dict__, **(value.model_extra or {}), **changes})
 
 
 def reset(scene: Scene, path: str | Location) -> Scene:

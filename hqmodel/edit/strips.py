@@ -10,7 +10,7 @@ from typing import Literal
 
 from hqmodel.model import Group, Scene, Shape, Strip, place, unused_name
 
-from .paths import EditError, get, put
+from .paths import EditError, get, put_fields
 
 
 def add_strip(scene: Scene, shape: int, strip: Strip) -> Scene:
@@ -88,5 +88,4 @@ def _with_strips(scene: Scene, index: int, strips: Sequence[Strip], groups: dict
     old = _shape(scene, index)
     left = {strip.group for strip in old.strips} - {strip.group for strip in strips}
     kept = {name: group for name, group in (groups or old.groups).items() if name not in left}
-    fields = {**old.__dict__, **(old.model_extra or {}), "strips": tuple(strips), "groups": kept}
-    return put(scene, ("shapes", index), fields)
+    return put_fields(scene, ("shapes", index), strips=tuple(strips), groups=kept)

@@ -70,6 +70,5 @@ def _turns(form: Form, index: int) -> None:
 
 def _replaced(scene: Scene, index: int, name: str) -> Scene:
     """The shape with the strips of a ready-made frame, and the slice where that is what it is called."""
-    start, shape = framed_scene(name), scene.shapes[index]
-    made = {**shape.__dict__, **(shape.model_extra or {}), "strips": start.shapes[0].strips, "groups": {}}
-    return edit.put(edit.put(scene, ("shapes", index), made), "slice", start.slice)
+    start = framed_scene(name)
+    return edit.put(edit.put_fields(scene, ("shapes", index), strips=start.shapes[0].strips, groups={}), "slice", start.slice)

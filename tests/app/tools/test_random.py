@@ -57,6 +57,20 @@ def pulled(session: Session, gesture: Gesture, chance: Generator) -> None:
     session.apply([Drop() if chance.random() < 0.1 else Release()])
 
 
+def stirred(session: Session, chance: Generator, keys: list[str]) -> None:
+    """Something selected, and then a gesture made or one of these actions done."""
+    session.apply([Select(*picked(session.scene, chance))])
+    if chance.random() < 0.15 or session.scene.strip_count > MOST:
+        session.apply([Do("delete" if session.scene.strip_count > MOST else str(chance.choice(keys)))])
+        if not any(shape.visible and shape.coefficient > 0 for shape in session.scene.shapes):
+            session.apply([Do("add block")])
+        return
+    camera = Camera(distance=8.0, azimuth=float(chance.uniform(0, 360)), elevation=float(chance.uniform(-80, 80)))
+    gesture = begun(session, Aim(camera, (900, 700)), chance)
+    if gesture is not None:
+        pulled(session, gesture, chance)
+
+
 def reloaded(scene: Scene) -> Scene:
     return Scene.model_validate(json.loads(dumps(scene)))
 
@@ -67,17 +81,7 @@ def test_a_thousand_random_gestures() -> None:
     first = session.scene
     points = chance.uniform(-2, 2, (50, 3))
     for number in range(GESTURES):
-        session.apply([Select(*picked(session.scene, chance))])
-        if chance.random() < 0.15 or session.scene.strip_count > MOST:
-            name = "delete" if session.scene.strip_count > MOST else str(chance.choice(KEYS))
-            session.apply([Do(name)])
-            if not session.scene.shapes:
-                session.apply([Do("add block")])
-            continue
-        camera = Camera(distance=8.0, azimuth=float(chance.uniform(0, 360)), elevation=float(chance.uniform(-80, 80)))
-        gesture = begun(session, Aim(camera, (900, 700)), chance)
-        if gesture is not None:
-            pulled(session, gesture, chance)
+        stirred(session, chance, KEYS)
         assert session.held is None
         if number % 5 == 0:
             assert reloaded(session.scene) == session.scene
