@@ -22,6 +22,7 @@ from hqmodel.app.asks import ExportSettings
 from hqmodel.app.export import ExportJob
 from hqmodel.app.session import Session
 from hqmodel.gpu import offscreen
+from tests.app.tools.test_random import stirred
 from tests.reliability import kills, mutants, wild
 from tests.reliability.objects import alive_after
 
