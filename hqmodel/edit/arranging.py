@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hqmodel.field import rotation_matrix
-from hqmodel.model import Scene, Shape, Transform
+from hqmodel.model import Scene, Shape, Transform, vector
 
 from .angles import Quaternion, about, composed
 from .paths import get, put, put_fields
@@ -26,7 +26,7 @@ def move_shapes(scene: Scene, indices: Iterable[int], by: ArrayLike) -> Scene:
     shift = np.asarray(by, dtype=float) * (1.0, 1.0, scene.dimension == 3)
     for index in indices:
         old = _transform(scene, index)
-        scene = _put(scene, index, translation=_triple(np.array(old.translation) + shift))
+        scene = _put(scene, index, translation=vector(np.array(old.translation) + shift))
     return scene
 
 
@@ -36,7 +36,7 @@ def turn_shapes(scene: Scene, indices: Iterable[int], turn: Quaternion, pivot: A
     for index in indices:
         old = _transform(scene, index)
         translation = centre + matrix @ (np.array(old.translation) - centre)
-        scene = _put(scene, index, translation=_triple(translation), rotation=composed(turn, old.rotation))
+        scene = _put(scene, index, translation=vector(translation), rotation=composed(turn, old.rotation))
     return scene
 
 
@@ -46,7 +46,7 @@ def scale_shapes(scene: Scene, indices: Iterable[int], factor: float, pivot: Arr
     for index in indices:
         old = _transform(scene, index)
         translation = centre + factor * (np.array(old.translation) - centre)
-        scene = _put(scene, index, translation=_triple(translation), scale=_triple(factor * np.array(old.scale)))
+        scene = _put(scene, index, translation=vector(translation), scale=vector(factor * np.array(old.scale)))
     return scene
 
 
@@ -58,7 +58,7 @@ def stretch_shapes(scene: Scene, indices: Iterable[int], axis: ArrayLike, factor
         shift = (factor - 1) * float(along @ (np.array(old.translation) - centre)) * along
         scale = np.array(old.scale)
         scale[int(np.argmax(np.abs(rotation_matrix(old.rotation).T @ along)))] *= factor
-        scene = _put(scene, index, translation=_triple(np.array(old.translation) + shift), scale=_triple(scale))
+        scene = _put(scene, index, translation=vector(np.array(old.translation) + shift), scale=vector(scale))
     return scene
 
 
@@ -86,8 +86,3 @@ def _transform(scene: Scene, index: int) -> Transform:
 
 def _put(scene: Scene, index: int, **changes: object) -> Scene:
     return put_fields(scene, ("shapes", index, "transform"), **changes)
-
-
-def _triple(values: Array) -> tuple[float, float, float]:
-    x, y, z = (float(value) + 0.0 for value in values)
-    return x, y, z

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hqmodel.model import Axis, Scene, Shape, Strip, Transform, Vector
+from hqmodel.model import Axis, Scene, Shape, Strip, Transform, Vector, vector
 
 from .bodies import Array, Bodies
 from .cloud import Frame
@@ -44,7 +44,7 @@ def _shape(bodies: Bodies, k: int, frame: Frame, name: str, mirror: tuple[Axis, 
     offset = bodies.offset[own] * half_width - normal @ frame.centre
     middle = _rounded(_middle(normal, offset, half_width, frame), 1e-6 * frame.size)
     strips = [
-        Strip(normal=_vector(_rounded(n, 1e-9)), offset=_short(o), half_width=_short(s), gamma=_short(g, 6))
+        Strip(normal=vector(_rounded(n, 1e-9)), offset=_short(o), half_width=_short(s), gamma=_short(g, 6))
         for n, o, s, g in zip(normal, offset + normal @ middle, half_width, bodies.gamma[own], strict=True)
     ]
     return Shape(
@@ -53,7 +53,7 @@ def _shape(bodies: Bodies, k: int, frame: Frame, name: str, mirror: tuple[Axis, 
         hardness=_short(bodies.hardness[k], 6),
         color=_COLORS[k % len(_COLORS)],
         mirror=mirror,
-        transform=Transform(translation=_vector(middle)),
+        transform=Transform(translation=vector(middle)),
         strips=tuple(strips),
     )
 
@@ -72,8 +72,3 @@ def _rounded(values: Array, step: float) -> Array:
 
 def _short(value: float, digits: int = 10) -> float:
     return float(f"{value:.{digits}g}")
-
-
-def _vector(values: Array) -> Vector:
-    x, y, z = (float(value) for value in values)
-    return x, y, z

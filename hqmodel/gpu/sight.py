@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hqmodel.field import Plane, Region
-from hqmodel.model import Camera
+from hqmodel.model import Camera, vector
 
 from .packing import Frame
 
@@ -50,8 +50,7 @@ def cut_uniform(cut: Plane | None, frame: Frame) -> tuple[float, float, float, f
     if cut is None:
         return 0.0, 0.0, 0.0, 1.0
     normal = cut.axes[2]
-    x, y, z = (float(part) for part in normal)
-    return x, y, z, float(normal @ frame.local(cut.origin))
+    return *vector(normal), float(normal @ frame.local(cut.origin))
 
 
 def depth_range(camera: Camera, region: Region, frame: Frame) -> tuple[float, float]:

@@ -3,7 +3,7 @@
 from .camera import VIEWS, Camera, remembered, usual
 from .faults import faults
 from .fields import FIELDS, MAX_SHAPES, MAX_STRIPS, Number, pattern, place, shown
-from .scene import FORMAT, VERSION, Axis, Group, Scene, Shape, Strip, Transform, Value, Vector, unused_name
+from .scene import FORMAT, VERSION, Axis, Group, Scene, Shape, Strip, Transform, Value, Vector, unused_name, vector
 
 __all__ = [
     "FIELDS",
@@ -29,4 +29,5 @@ __all__ = [
     "shown",
     "unused_name",
     "usual",
+    "vector",
 ]

@@ -9,6 +9,8 @@ from math import cos, exp, isfinite, radians, sin, tan
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .scene import vector
+
 Array = NDArray[np.float64]
 
 VIEWS = {
@@ -104,7 +106,7 @@ class Camera:
         """Moved so that the point at the target follows a drag of so many pixels in a picture of that height."""
         right, up, _ = self.axes()
         step = 2 * self.half_height() / height
-        return replace(self, target=_triple(np.asarray(self.target) - right * dx * step + up * dy * step))
+        return replace(self, target=vector(np.asarray(self.target) - right * dx * step + up * dy * step))
 
     def zoomed(self, steps: float, pixel: ArrayLike, size: tuple[int, int]) -> Camera:
         """Nearer by so many wheel steps, what lies under the pixel (at the target's depth) staying there."""
@@ -114,7 +116,7 @@ class Camera:
         right, up, _ = self.axes()
         reach = self.half_height() * 2 / size[1] * (1 - distance / self.distance)
         shift = right * (x - size[0] / 2) * reach + up * (size[1] / 2 - y) * reach
-        return replace(self, distance=distance, target=_triple(np.asarray(self.target) + shift))
+        return replace(self, distance=distance, target=vector(np.asarray(self.target) + shift))
 
     def framing(self, low: ArrayLike, high: ArrayLike, aspect: float = 1.0, margin: float = 1.1) -> Camera:
         """The same view direction, moved so that the box from low to high (3,) fills the picture."""
@@ -125,17 +127,12 @@ class Camera:
         slope = tan(radians(self.field_of_view) / 2)
         wide = np.maximum(np.abs(corners[:, 0]) / aspect, np.abs(corners[:, 1])) * margin
         needed = np.max(wide / slope + (0.0 if self.orthographic else corners[:, 2]))
-        return replace(self, target=_triple(centre), distance=max(float(needed), 1e-9))
+        return replace(self, target=vector(centre), distance=max(float(needed), 1e-9))
 
     def looking(self, view: str) -> Camera:
         """Turned to one of the standard `VIEWS`; KeyError for any other name."""
         azimuth, elevation = VIEWS[view]
         return replace(self, azimuth=azimuth, elevation=elevation)
-
-
-def _triple(values: Array) -> tuple[float, float, float]:
-    x, y, z = (float(value) for value in values)
-    return x, y, z
 
 
 def usual(dimension: int) -> Camera:

@@ -5,7 +5,7 @@ An edit makes a new value with `changed`; nothing is ever altered in place. Unkn
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from math import hypot, sqrt
 from typing import Annotated, Any, Final, Literal, Self
 
@@ -40,6 +40,12 @@ Quaternion = tuple[Coordinate, Coordinate, Coordinate, Coordinate]
 Sign = Annotated[Literal[1, -1], BeforeValidator(_whole)]
 Axis = Literal["x", "y", "z"]
 Flag = Annotated[bool, Strict()]
+
+
+def vector(values: Iterable[float]) -> Vector:
+    """Three numbers, a row of an array say, as plain floats; -0.0 is 0.0."""
+    x, y, z = (float(value) + 0.0 for value in values)
+    return x, y, z
 
 
 class Value(BaseModel):

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from hqmodel import edit
-from hqmodel.model import Camera, Scene
+from hqmodel.model import Camera, Scene, vector
 
 from ..intents import Grab, Intent, Look, Release, Show
 from ..session import Session
@@ -69,8 +69,7 @@ class Gizmo:
         self.matrix = _array(matrix)
         intents: list[Intent] = []
         if self.before is None:
-            x, y, z = (float(part) for part in start[:3, 3])
-            self.before, self.pivot = session.scene, (x, y, z)
+            self.before, self.pivot = session.scene, vector(start[:3, 3])
             intents.append(Grab((), _LABELS[tool]))
         return [*intents, Show(self._arranged(self.before, tool, chosen))]
 

@@ -8,11 +8,10 @@ from typing import ClassVar
 import numpy as np
 
 from hqmodel import edit
-from hqmodel.model import Scene
+from hqmodel.model import Scene, Vector, vector
 
 from .aim import Pixels
 from .gesture import Gesture, Values, rounded
-from .grip import Vector
 
 AXES: dict[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 TURN_STEP, SCALE_STEP = 15.0, 0.1
@@ -44,8 +43,7 @@ class Move(Arrange):
     def measured(self, moved: Pixels) -> Values:
         if self.axis:
             return (self.aim.along(self.pivot, AXES[self.axis], moved),)
-        x, y, z = (float(part) for part in self.aim.across(self.pivot, moved))
-        return x, y, z
+        return vector(self.aim.across(self.pivot, moved))
 
     def snapped(self, values: Values) -> Values:
         return rounded(values, self.aim.step(self.pivot))

@@ -8,10 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hqmodel.field import Face, Terms, face, image_at, log_gradient, shaping_strip, world_planes
-from hqmodel.model import Scene
+from hqmodel.model import Scene, Vector, vector
 
 Array = NDArray[np.float64]
-Vector = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
@@ -43,7 +42,7 @@ def grip_at(scene: Scene, point: ArrayLike, shape: int | None = None, strip: int
     image = image_at(scene.shapes[shape], scene.slice, at)
     normals, offsets = world_planes(scene.shapes[shape], scene.slice)
     side = 1 if normals[strip] @ (at * image) + offsets[strip] >= 0 else -1
-    return Grip(shape, strip, side, _triple(at), _triple(image))
+    return Grip(shape, strip, side, vector(at), vector(image))
 
 
 def outward(scene: Scene, point: ArrayLike) -> Array:
@@ -51,8 +50,3 @@ def outward(scene: Scene, point: ArrayLike) -> Array:
     slope = -log_gradient(Terms.of(scene), point)[1]
     length = float(np.linalg.norm(slope))
     return slope / length if length > 0 else np.array([0.0, 0.0, 1.0])
-
-
-def _triple(values: Array) -> Vector:
-    x, y, z = (float(value) for value in values)
-    return x, y, z

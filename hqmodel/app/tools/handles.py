@@ -9,11 +9,11 @@ from typing import Literal
 import numpy as np
 
 from hqmodel.field import Face
-from hqmodel.model import Scene
+from hqmodel.model import Scene, vector
 
 from .aim import Aim, Array, Pixels
 from .gesture import Gesture
-from .grip import Grip, Vector
+from .grip import Grip
 from .sculpting import Push, Soften, Tilt, Way
 
 Part = Literal["push", "tilt", "exponent"]
@@ -57,7 +57,7 @@ class Handles:
             case "exponent":
                 return Soften(scene, aim, self.grip.shape, self.grip.strip)
             case "tilt":
-                return Tilt(scene, aim, self.grip, _vector(self.face.middle), _vector(self.arms[self._nearest(pixel)[0]]))
+                return Tilt(scene, aim, self.grip, vector(self.face.middle), vector(self.arms[self._nearest(pixel)[0]]))
 
     def _nearest(self, pixel: Pixels) -> tuple[int, float]:
         distances = np.nan_to_num(np.hypot(*(self.ring - pixel).T), nan=np.inf)
@@ -71,7 +71,7 @@ def handles(scene: Scene, shape: int, strip: int, aim: Aim, scale: float = 1.0) 
     faces = {side: Grip(shape, strip, side, (0.0, 0.0, 0.0)).face(scene) for side in (1, -1)}
     side = max(faces, key=lambda side: (len(faces[side].polygon) > 0, float(faces[side].normal @ back)))
     face = faces[side]
-    grip = Grip(shape, strip, side, _vector(face.middle))
+    grip = Grip(shape, strip, side, vector(face.middle))
     width = scale * aim.per_pixel(face.middle)
     across = np.cross(face.normal, np.eye(3)[int(np.argmin(np.abs(face.normal)))])
     across /= np.linalg.norm(across)
@@ -86,8 +86,3 @@ def handles(scene: Scene, shape: int, strip: int, aim: Aim, scale: float = 1.0) 
 
 def _distance(at: Array, pixel: Pixels) -> float:
     return hypot(at[0] - pixel[0], at[1] - pixel[1])
-
-
-def _vector(values: Array) -> Vector:
-    x, y, z = (float(value) for value in values)
-    return x, y, z

@@ -6,13 +6,13 @@ import numpy as np
 
 from hqmodel import edit
 from hqmodel.field import Region, region
-from hqmodel.model import Scene
+from hqmodel.model import Scene, Vector, vector
 
 from ..selection import Selection
 from .aim import Aim, Pixels
 from .arranging import Move, Scale, Turn
 from .gesture import Gesture
-from .grip import Grip, Vector, outward
+from .grip import Grip, outward
 from .handles import Handles
 from .kit import Kit
 from .sculpting import Chop, Harden, Pat, Push, Soften
@@ -55,8 +55,7 @@ def modal(name: str, scene: Scene, selection: Selection, aim: Aim, at: Pixels) -
 
 def pivot(scene: Scene, shapes: tuple[int, ...]) -> Vector:
     """The middle of the shapes' own origins: what they are turned and scaled about."""
-    x, y, z = np.mean([scene.shapes[index].transform.translation for index in shapes], axis=0)
-    return float(x), float(y), float(z)
+    return vector(np.mean([scene.shapes[index].transform.translation for index in shapes], axis=0))
 
 
 def boxed(scene: Scene, aim: Aim, start: Pixels, end: Pixels) -> tuple[int, ...]:
@@ -73,9 +72,7 @@ def boxed(scene: Scene, aim: Aim, start: Pixels, end: Pixels) -> tuple[int, ...]
 
 def _pat(kit: Kit, scene: Scene, aim: Aim, grip: Grip) -> Gesture:
     shape, image = edit.clay_at(scene, grip.point)
-    x, y, z = (float(sign) for sign in image)
-    nx, ny, nz = (float(part) for part in outward(scene, grip.point))
-    return Pat(scene, aim, shape, grip.point, (nx, ny, nz), (x, y, z), kit.pat)
+    return Pat(scene, aim, shape, grip.point, vector(outward(scene, grip.point)), vector(image), kit.pat)
 
 
 def _chop(kit: Kit, scene: Scene, selection: Selection, aim: Aim, at: Pixels) -> Gesture | None:

@@ -10,11 +10,11 @@ import numpy as np
 
 from hqmodel import edit
 from hqmodel.field import Region, rotation_matrix
-from hqmodel.model import FIELDS, Scene
+from hqmodel.model import FIELDS, Scene, Vector
 
 from .aim import Array, Pixels
 from .gesture import Gesture, Values, rounded
-from .grip import Grip, Vector
+from .grip import Grip
 
 Way = Literal["one", "both", "slide"]
 WAYS: tuple[Way, ...] = ("one", "both", "slide")
