@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 import hqmodel
 from hqmodel import files
-from hqmodel.field import region
 from hqmodel.gpu import Preview
 from hqmodel.model import usual
 
@@ -76,7 +75,7 @@ class Thumbnails:
             return
         self._preview = Preview(self._ctx)
         self._preview.show(scene)
-        box = region(scene)
+        box = self._preview.region
         view = restored(scene.view) or View(usual(scene.dimension))
         self._view = view.moved(view.camera.framing(box.low, box.high))
 

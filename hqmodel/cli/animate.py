@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -18,6 +18,9 @@ from .options import Json, Preset, Quiet, Set, Slice, scene_of
 from .outputs import checked, tell
 from .progress import Report, progress
 from .views import Azimuth, Elevation, Mode, Size, View, drawable, looking, pixels
+
+if TYPE_CHECKING:
+    from hqmodel.field import Region
 
 FPS = 25.0
 _MOST = 10_000
@@ -147,16 +150,17 @@ def _timing(seconds: float | None, fps: float | None, frames: int | None, usual_
 
 def _seen(
     preset: str, scene: Scene, camera: Camera, moving: Animation | None, moments: list[Moment], aspect: float
-) -> dict[Moment, tuple[Scene, Camera]]:
-    """The scene and the camera at each moment: one target and one distance, from which all of all bodies is in the picture."""
+) -> dict[Moment, tuple[Scene, Region, Camera]]:
+    """The scene, its region and the camera at each moment: one target and one distance, from which all of all bodies is seen."""
     from hqmodel.field import region
 
     try:
         stages = {phase: staged(scene, moving, phase) if moving else scene for phase, _ in moments}
     except EditError as error:
         raise Fault(f"{preset}: {error}", INPUT) from None
-    regions = [region(stage) for stage in {id(stage): stage for stage in stages.values()}.values()]
-    boxes = [where for where in regions if not where.empty] or regions
+    known = {id(stage): region(stage) for stage in {id(stage): stage for stage in stages.values()}.values()}
+    regions = {phase: known[id(stage)] for phase, stage in stages.items()}
+    boxes = [where for where in known.values() if not where.empty] or list(known.values())
     low = [min(where.low[axis] for where in boxes) for axis in range(3)]
     high = [max(where.high[axis] for where in boxes) for axis in range(3)]
     cameras = {}
@@ -164,11 +168,14 @@ def _seen(
         turned = filmed(camera, moving, phase) if moving else camera
         cameras[phase, turn] = replace(turned, azimuth=turned.azimuth + turn).framing(low, high, aspect)
     distance = max(camera.distance for camera in cameras.values())
-    return {moment: (stages[moment[0]], replace(camera, distance=distance)) for moment, camera in cameras.items()}
+    return {
+        (phase, turn): (stages[phase], regions[phase], replace(camera, distance=distance))
+        for (phase, turn), camera in cameras.items()
+    }
 
 
 def _drawn(
-    seen: dict[Moment, tuple[Scene, Camera]], size: tuple[int, int], mode: str, folder: Path, report: Report
+    seen: dict[Moment, tuple[Scene, Region, Camera]], size: tuple[int, int], mode: str, folder: Path, report: Report
 ) -> dict[Moment, Path]:
     """Each moment's picture as a file."""
     from PIL import Image
@@ -178,9 +185,9 @@ def _drawn(
     files: dict[Moment, Path] = {}
     try:
         ctx = gpu.offscreen()
-        for moment, (scene, camera) in seen.items():
+        for moment, (scene, where, camera) in seen.items():
             report(len(files) / len(seen), "Drawing")
-            drawn = gpu.render(scene, camera, size, mode, samples=_SAMPLES, ctx=ctx)
+            drawn = gpu.render(scene, camera, size, mode, samples=_SAMPLES, ctx=ctx, where=where)
             files[moment] = folder / f"{len(files)}.png"
             Image.fromarray(drawn[..., :3]).save(files[moment], compress_level=1)
         ctx.release()

@@ -49,7 +49,7 @@ def render(
     try:
         with progress(quiet) as report:
             framed = camera.framing(where.low, where.high, width / height)
-            drawn = gpu.render(scene, framed, (width, height), mode, plane, progress=report)
+            drawn = gpu.render(scene, framed, (width, height), mode, plane, progress=report, where=where)
     except gpu.GpuError as error:
         raise Fault(str(error), MACHINE) from None
     if mode == "curvature":

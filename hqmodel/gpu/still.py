@@ -10,7 +10,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from hqmodel.field import Plane, Terms, region
+from hqmodel.field import Plane, Region, Terms, region
 from hqmodel.model import Camera, Scene, usual
 
 from .context import framebuffer_kept, offscreen
@@ -36,17 +36,17 @@ def render(
     samples: int = SAMPLES,
     ctx: moderngl.Context | None = None,
     progress: Callable[[float, str], None] | None = None,
+    where: Region | None = None,
 ) -> NDArray[np.uint8]:
     """The scene as the preview shows it, (height, width, 4) of sRGB, opaque, top row first.
 
     Without a camera the body is framed from its usual side. What lies in front of the plane `cut` is left out, and the cut is
-    shown filled. `progress` is told the share done (0..1) and what is being done;
-    whatever it raises ends the work. Raises GpuError without OpenGL, ValueError for a mode that is
-    none of `MODES`.
+    shown filled. `progress` is told the share done (0..1) and what is being done; whatever it raises ends the work. `where` is
+    the scene's region, for those who have it. Raises GpuError without OpenGL, ValueError for a mode that is none of `MODES`.
     """
     own = offscreen() if ctx is None else ctx
     terms = Terms.of(scene)
-    where = region(scene, terms)
+    where = region(scene, terms) if where is None else where
     if camera is None:
         camera = usual(scene.dimension).framing(where.low, where.high, size[0] / size[1])
     memory = SceneMemory(own)
