@@ -2,34 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from time import perf_counter
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 import typer
 
-from hqmodel.edit import Animation, EditError, animation_at, filmed, staged, sweep_of
-from hqmodel.model import Camera, Scene, remembered, shown, usual
+from hqmodel.edit import Animation, EditError, animation_at, sweep_of
+from hqmodel.edit.animation import FPS, MOST_FRAMES
+from hqmodel.model import Scene, remembered, shown, usual
 
-from .faults import INPUT, MACHINE, USAGE, Fault
+from .faults import INPUT, MACHINE, USAGE, Fault, unwritable
 from .options import Json, Preset, Quiet, Set, Slice, scene_of
 from .outputs import checked, tell
-from .progress import Report, progress
+from .progress import progress
 from .views import Azimuth, Elevation, Mode, Size, View, drawable, looking, pixels
 
-if TYPE_CHECKING:
-    from hqmodel.field import Region
-
-FPS = 25.0
-_MOST = 10_000
-# Samples a pixel: few, as a frame is seen for a moment.
-_SAMPLES = 4
 # The seconds of what has no duration of its own.
 _SWEPT, _TURNED = 4.0, 6.0
-
-Moment = tuple[float, float]
 
 Output = Annotated[
     Path,
@@ -76,27 +66,28 @@ def animate(
     started = perf_counter()
     extent = pixels(size)
     scene = scene_of(preset, slice_t, settings)
-    from . import films  # late: a preset at fault is told at once
+    from hqmodel import film, gpu  # late: a preset at fault is told at once
 
-    checked([output], films.ENDINGS, [preset])
+    checked([output], film.ENDINGS, [preset])
     moving = _moving(preset, scene, sweep, animation, turntable)
     if moving is not None:
         moving = moving.changed(easing=easing or moving.easing, repeat="ping-pong" if ping_pong else moving.repeat)
     count, duration = _timing(seconds, fps, frames, moving.duration if moving else _TURNED)
-    films.writable(output, count, duration)
     drawable(mode)
     camera = looking(remembered(scene.view.get("camera")) or usual(scene.dimension), view, azimuth, elevation)
-    turns = [360 * index / count if turntable else 0.0 for index in range(count)]
-    moments = list(zip(moving.phases(count) if moving else [0.0] * count, turns, strict=True))
-    with TemporaryDirectory(prefix="hqmodel-") as folder:
+    plan = film.Plan(scene, camera, moving, turntable, count, duration, extent, mode)
+    try:
+        film.check(output, count, duration)
         with progress(quiet) as report:
-            report(0.0, "Measuring")
-            seen = _seen(preset, scene, camera, moving, list(dict.fromkeys(moments)), extent[0] / extent[1])
-            drawn = _drawn(seen, extent, mode, Path(folder), report)
-        number = {moment: index for index, moment in enumerate(drawn)}
-        loops = turntable or moving is None or moving.repeat != "once"
-        film = films.Film(list(drawn.values()), [number[moment] for moment in moments], duration, loops)
-        files = films.write(film, output)
+            files = film.shoot(plan, output, report)
+    except EditError as error:
+        raise Fault(f"{preset}: {error}", INPUT) from None
+    except (film.NoWriter, gpu.GpuError) as error:
+        raise Fault(str(error), MACHINE) from None
+    except film.FilmError as error:
+        raise Fault(str(error), USAGE) from None
+    except OSError as error:
+        raise unwritable(error.filename or output, error) from None
     result = {"frames": count, "duration": duration, "width": extent[0], "height": extent[1], "mode": mode}
     result |= {"files": list(map(str, files)), "seconds": perf_counter() - started}
     told = str(files[0]) if len(files) == 1 else f"{files[0]} to {files[-1].name}"
@@ -143,54 +134,6 @@ def _timing(seconds: float | None, fps: float | None, frames: int | None, usual_
             raise Fault(f"{option}: expected a number above 0 and up to 3600, got {value:g}", USAGE)
     rate = fps or FPS
     count = frames if frames is not None else round((seconds or usual_seconds) * rate)
-    if not 2 <= count <= _MOST:
-        raise Fault(f"--frames: expected a number from 2 to {_MOST}, got {count}", USAGE)
+    if not 2 <= count <= MOST_FRAMES:
+        raise Fault(f"--frames: expected a number from 2 to {MOST_FRAMES}, got {count}", USAGE)
     return count, seconds or (count / rate if frames is not None else usual_seconds)
-
-
-def _seen(
-    preset: str, scene: Scene, camera: Camera, moving: Animation | None, moments: list[Moment], aspect: float
-) -> dict[Moment, tuple[Scene, Region, Camera]]:
-    """The scene, its region and the camera at each moment: one target and one distance, from which all of all bodies is seen."""
-    from hqmodel.field import region
-
-    try:
-        stages = {phase: staged(scene, moving, phase) if moving else scene for phase, _ in moments}
-    except EditError as error:
-        raise Fault(f"{preset}: {error}", INPUT) from None
-    known = {id(stage): region(stage) for stage in {id(stage): stage for stage in stages.values()}.values()}
-    regions = {phase: known[id(stage)] for phase, stage in stages.items()}
-    boxes = [where for where in known.values() if not where.empty] or list(known.values())
-    low = [min(where.low[axis] for where in boxes) for axis in range(3)]
-    high = [max(where.high[axis] for where in boxes) for axis in range(3)]
-    cameras = {}
-    for phase, turn in moments:
-        turned = filmed(camera, moving, phase) if moving else camera
-        cameras[phase, turn] = replace(turned, azimuth=turned.azimuth + turn).framing(low, high, aspect)
-    distance = max(camera.distance for camera in cameras.values())
-    return {
-        (phase, turn): (stages[phase], regions[phase], replace(camera, distance=distance))
-        for (phase, turn), camera in cameras.items()
-    }
-
-
-def _drawn(
-    seen: dict[Moment, tuple[Scene, Region, Camera]], size: tuple[int, int], mode: str, folder: Path, report: Report
-) -> dict[Moment, Path]:
-    """Each moment's picture as a file."""
-    from PIL import Image
-
-    from hqmodel import gpu
-
-    files: dict[Moment, Path] = {}
-    try:
-        ctx = gpu.offscreen()
-        for moment, (scene, where, camera) in seen.items():
-            report(len(files) / len(seen), "Drawing")
-            drawn = gpu.render(scene, camera, size, mode, samples=_SAMPLES, ctx=ctx, where=where)
-            files[moment] = folder / f"{len(files)}.png"
-            Image.fromarray(drawn[..., :3]).save(files[moment], compress_level=1)
-        ctx.release()
-    except gpu.GpuError as error:
-        raise Fault(str(error), MACHINE) from None
-    return files

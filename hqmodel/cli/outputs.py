@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Collection, Iterator, Sequence
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, contextmanager
 from math import isfinite
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any, BinaryIO
 
-from hqmodel.files import atomic
+from hqmodel import files
 
 from .faults import USAGE, Fault, unwritable
 
@@ -41,35 +40,19 @@ def writing(paths: Sequence[Path]) -> Iterator[list[BinaryIO]]:
     names = ", ".join(map(str, paths))
     try:
         with ExitStack() as stack:
-            yield [stack.enter_context(atomic(path)) for path in paths]
+            yield [stack.enter_context(files.atomic(path)) for path in paths]
     except OSError as error:
         raise unwritable(error.filename or names, error) from None
 
 
 @contextmanager
 def filling(folder: Path) -> Iterator[Path]:
-    """An empty folder to write many files in, which move into `folder`, made where it isn't there, when the block ends well.
-
-    Raises Fault when one can't be written.
-    """
-    new = not folder.exists()
+    """`files.filling`; raises Fault when a file can't be written."""
     try:
-        folder.mkdir(exist_ok=True)
-        with TemporaryDirectory(prefix=".hqmodel-", suffix=".tmp", dir=folder) as draft:
-            yield Path(draft)
-            new = False
-            for path in sorted(Path(draft).rglob("*")):
-                target = folder / path.relative_to(draft)
-                if path.is_dir():
-                    target.mkdir(exist_ok=True)
-                else:
-                    path.replace(target)
+        with files.filling(folder) as draft:
+            yield draft
     except OSError as error:
         raise unwritable(error.filename or folder, error) from None
-    finally:
-        if new:
-            with suppress(OSError):
-                folder.rmdir()
 
 
 def tell(result: dict[str, Any], text: str, as_json: bool, quiet: bool) -> None:

@@ -18,6 +18,8 @@ from .paths import EditError, Location, get, locations, parse, put
 
 Easing = Literal["linear", "smooth"]
 Repeat = Literal["once", "loop", "ping-pong"]
+# Of films: frames a second unless said otherwise, and how many frames one has at most.
+FPS, MOST_FRAMES = 25.0, 10_000
 
 AZIMUTH, ELEVATION = "view.camera.azimuth", "view.camera.elevation"
 # The camera is no part of the body: what sweeps it is applied to a Camera.

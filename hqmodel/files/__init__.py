@@ -6,6 +6,7 @@ from .backups import back_up, backup_folder, fingerprint
 from .builtin import Builtin, builtin
 from .dump import dumps, save
 from .errors import PresetError
+from .folders import filling
 from .load import find, load, parse
 from .pictures import Pictures
 from .schema import schema, schema_text
@@ -24,6 +25,7 @@ __all__ = [
     "backup_folder",
     "builtin",
     "dumps",
+    "filling",
     "find",
     "fingerprint",
     "load",
