@@ -110,6 +110,32 @@ def test_ply_has_srgb_bytes_and_normals() -> None:
     np.testing.assert_allclose(loaded.vertex_normals, np.asarray(body().normals), atol=1e-6)
 
 
+def test_stl_facets_have_their_normals() -> None:
+    loaded: Any = trimesh.load(io.BytesIO(written(body(), ".stl")), file_type="stl", process=False)
+    corners = np.asarray(body().vertices)[body().faces]
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    np.testing.assert_allclose(loaded.face_normals, across / np.linalg.norm(across, axis=1)[:, None], atol=1e-4)
+
+
+@pytest.mark.parametrize("suffix", FORMATS)
+def test_files_are_written_in_small_blocks(suffix: str) -> None:
+    """So that writing a large one can be stopped at any of them."""
+    copies = 20
+    faces = np.concatenate([body().faces + np.int32(i * len(body().vertices)) for i in range(copies)])
+    tiled: dict[str, Any] = {name: np.tile(getattr(body(), name), (copies, 1)) for name in ("vertices", "normals", "colors")}
+    mesh = Mesh(faces=faces, **tiled)
+    sizes: list[int] = []
+
+    class Stream(io.BytesIO):
+        def write(self, data: Any) -> int:
+            sizes.append(len(data))
+            return super().write(data)
+
+    write(mesh, Stream(), suffix)
+    assert sum(sizes) > 1e6
+    assert max(sizes) < 4e6
+
+
 def test_glb_colours_are_linear() -> None:
     data = written(body(), ".glb", "ear")
     length = struct.unpack("<I", data[12:16])[0]
