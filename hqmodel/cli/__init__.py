@@ -1,5 +1,5 @@
 """The command line, one small file a command."""
 
-from .main import main, main_window, run
+from .main import open_window, run
 
-__all__ = ["main", "main_window", "run"]
+__all__ = ["open_window", "run"]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import signal
-import sys
 from collections.abc import Sequence
 from difflib import get_close_matches
 from pathlib import Path
@@ -78,19 +76,6 @@ def run(arguments: Sequence[str]) -> int:
     return guarded(invoke)
 
 
-def main() -> None:
-    """The console's entry point."""
-    signal.signal(signal.SIGTERM, _terminated)
-    sys.exit(run(sys.argv[1:]))
-
-
-def main_window() -> None:
-    """The entry point of desktops, which open a file by naming it: what is wrong with it is told in the window."""
-    signal.signal(signal.SIGTERM, _terminated)
-    path = Path(sys.argv[1]) if len(sys.argv) > 1 else None
-    sys.exit(guarded(lambda: edit.window(path)))
-
-
-def _terminated(number: int, _frame: object) -> None:
-    """Asked to end: unwind, so that nothing half-written is left behind."""
-    sys.exit(128 + number)
+def open_window(path: Path | None) -> int:
+    """Open the modeller with that file, and tell what is wrong with it there; the exit status."""
+    return guarded(lambda: edit.window(path))

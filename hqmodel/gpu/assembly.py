@@ -10,6 +10,7 @@ import moderngl
 from hqmodel.resources import folder
 
 from . import layout, modes
+from .context import undisturbed
 
 # Files that are not on disk but come from what Python knows.
 GENERATED = {"layout.glsl": layout.glsl, "modes.glsl": modes.glsl}
@@ -79,7 +80,8 @@ def program(ctx: moderngl.Context, fragment: str, defines: tuple[str, ...] = ())
     """
     vertex_source, source = assemble("screen.vert"), assemble(fragment, defines)
     try:
-        return ctx.program(vertex_shader=vertex_source.text, fragment_shader=source.text)
+        with undisturbed():
+            return ctx.program(vertex_shader=vertex_source.text, fragment_shader=source.text)
     except moderngl.Error as error:
         raise ShaderError(f"{fragment}: {source.readable(str(error))}") from error
 

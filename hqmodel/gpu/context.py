@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import signal
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
+from types import FrameType
 from typing import Any
 
 import moderngl
@@ -44,3 +47,30 @@ def framebuffer_kept(ctx: moderngl.Context) -> Iterator[None]:
     finally:
         ctx.enable_only(moderngl.NOTHING)
         before.use()
+
+
+@contextmanager
+def undisturbed() -> Iterator[None]:
+    """Requests to end that come meanwhile are heeded afterwards.
+
+    Making a program, moderngl calls back into Python, and the process crashes where a signal's handler raises there.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield  # signals are another thread's
+        return
+    came: list[int] = []
+
+    def note(number: int, frame: FrameType | None) -> None:
+        came.append(number)
+
+    handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    handlers = {number: handler for number, handler in handlers.items() if callable(handler)}
+    for number in handlers:
+        signal.signal(number, note)
+    try:
+        yield
+    finally:
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+    if came:
+        signal.raise_signal(came[0])

@@ -13,7 +13,7 @@ import pytest
 
 import hqmodel as package
 from hqmodel import app
-from hqmodel.cli import main_window
+from hqmodel.__main__ import main_window
 from hqmodel.files import load
 from hqmodel.model import Scene
 

@@ -54,6 +54,28 @@ def test_stopped_while_writing_it_leaves_nothing(folder: Path, number: int, stat
     assert {path.name for path in folder.iterdir()} == {"ball.json", "p.csv"}
 
 
+@pytest.mark.parametrize(
+    ("heed", "ended"), [(signal.SIG_DFL, (-signal.SIGINT, "", "")), (signal.SIG_IGN, (0, "ball.json: ok\n", ""))]
+)
+def test_interrupted_while_it_loads_it_just_ends(folder: Path, heed: signal.Handlers, ended: tuple[int, str, str]) -> None:
+    """Without a traceback; and not at all where whoever started it wants interrupts ignored."""
+    code = """
+import signal, sys
+class Interrupting:
+    def find_spec(self, name, *_):
+        if name == "hqmodel.cli.main":
+            signal.raise_signal(signal.SIGINT)
+sys.meta_path.insert(0, Interrupting())
+from hqmodel.__main__ import main
+main()
+"""
+    command = [sys.executable, "-c", code, "check", "ball.json"]
+    done = subprocess.run(
+        command, capture_output=True, text=True, check=False, preexec_fn=lambda: signal.signal(signal.SIGINT, heed)
+    )
+    assert (done.returncode, done.stdout, done.stderr) == ended
+
+
 def test_on_a_terminal_it_shows_progress_and_stops_at_ctrl_c(folder: Path) -> None:
     screen, terminal = pty.openpty()
     command = [*PROGRAM, "export", "ball.json", "-o", "a.obj", "--resolution", "2000"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import signal
 from pathlib import Path
 
 import moderngl
@@ -102,3 +103,20 @@ def test_a_missing_include_is_named(shaders: Path) -> None:
 )
 def test_compilers_logs_are_read(log: str, readable: str) -> None:
     assert Source("", ("trace.frag", "field.glsl")).readable(log) == readable
+
+
+def test_an_interrupt_waits_until_a_program_is_made() -> None:
+    """moderngl calls back into Python meanwhile, and crashes where something is raised there."""
+
+    class Interrupted:
+        made = False
+
+        def program(self, **_: str) -> None:
+            signal.raise_signal(signal.SIGINT)
+            self.made = True
+
+    ctx = Interrupted()
+    with pytest.raises(KeyboardInterrupt):
+        program(ctx, "mark.frag")  # type: ignore[arg-type]
+    assert ctx.made
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
