@@ -34,8 +34,7 @@ class ExportJob(Job[Exported]):
             body = mesh.radial_quads(self._scene, settings.resolution, self._meshing)
         else:
             body = mesh.polygonize(self._scene, settings.resolution, self._meshing, target_faces=settings.target_faces)
-        self._report(0.9, "Measuring")
-        report = mesh.report(body)
+        report = mesh.report(body, lambda: self._report(0.9, "Measuring"))
         fitted = mesh.fitted(body, suffix, unit=settings.unit, size=settings.size, up=settings.up)
         if not settings.colors:
             fitted = replace(fitted, colors=None)

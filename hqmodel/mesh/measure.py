@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -9,8 +10,11 @@ from numpy.typing import NDArray
 
 from hqmodel.field import Terms, log_ratio, near_linear_single
 
-from .mesh import Array, Mesh, Triangles, crosses, lengths
+from .mesh import Array, Mesh, Triangles, crosses, dots, lengths
 from .refine import to_surface
+
+# Faces that are measured between two looks at whether it is still wanted.
+_AT_ONCE = 1 << 18
 
 
 def depths(terms: Terms, vertices: Array, faces: Triangles, slopes: Array) -> NDArray[np.float32]:
@@ -36,16 +40,13 @@ def largest_distance(terms: Terms, vertices: Array, faces: Triangles, off: NDArr
     return float(np.max(lengths(to_surface(terms, worst, stride, rounds=6)[0] - worst)))
 
 
-def report(mesh: Mesh) -> dict[str, Any]:
-    """Counts and measures of a mesh, in its own unit: what ``hqmodel export --json`` prints of it."""
-    corners = mesh.vertices[mesh.faces]
-    origin = mesh.vertices.mean(axis=0)
-    a, b, c = (corners[:, i] - origin for i in range(3))
-    with np.errstate(over="ignore", invalid="ignore"):
-        across = crosses(b - a, c - a)
-        volume = float(np.einsum("ij,ij->", a, across) / 6)
-        area = float(lengths(across).sum() / 2)
-    watertight, edges = _closed(mesh)
+def report(mesh: Mesh, still: Callable[[], None] = lambda: None) -> dict[str, Any]:
+    """Counts and measures of a mesh, in its own unit: what ``hqmodel export --json`` prints of it.
+
+    `still` is called again and again; whatever it raises ends the work.
+    """
+    volume, area = _volume_and_area(mesh, still)
+    watertight, edges = _closed(mesh, still)
     return {
         "vertices": len(mesh.vertices),
         "faces": len(mesh.faces),
@@ -58,13 +59,38 @@ def report(mesh: Mesh) -> dict[str, Any]:
     }
 
 
-def _closed(mesh: Mesh) -> tuple[bool, int]:
-    """Whether every edge has exactly one neighbour in each direction, and how many edges there are."""
+def _volume_and_area(mesh: Mesh, still: Callable[[], None]) -> tuple[float, float]:
+    origin = mesh.vertices.mean(axis=0)
+    volume = area = 0.0
+    for start in range(0, len(mesh.faces), _AT_ONCE):
+        still()
+        corners = mesh.vertices[mesh.faces[start : start + _AT_ONCE]] - origin
+        a, b, c = (corners[:, i] for i in range(3))
+        with np.errstate(over="ignore", invalid="ignore"):
+            across = crosses(b - a, c - a)
+            volume += float(dots(a, across).sum() / 6)
+            area += float(lengths(across).sum() / 2)
+    return volume, area
+
+
+def _closed(mesh: Mesh, still: Callable[[], None]) -> tuple[bool, int]:
+    """Whether every edge has exactly one neighbour in each direction, and how many edges there are.
+
+    Edges are looked at by the lower number of their vertices, some of these at a time.
+    """
     count = len(mesh.vertices)
-    start = mesh.faces.ravel().astype(np.int64)
-    end = np.roll(mesh.faces, -1, axis=1).ravel().astype(np.int64)
-    up, down = start < end, start > end
-    forward, backward = np.sort(start[up] * count + end[up]), np.sort(end[down] * count + start[down])
-    if len(forward) + len(backward) == len(start) and np.array_equal(forward, backward) and bool(np.all(np.diff(forward) > 0)):
-        return len(forward) > 0, len(forward)
-    return False, len(np.unique(np.minimum(start, end) * count + np.maximum(start, end)))
+    start, end = mesh.faces.ravel(), mesh.faces[:, [1, 2, 0]].ravel()
+    lower = np.minimum(start, end)
+    step = max(1, count * _AT_ONCE // max(1, len(mesh.faces)))
+    closed, edges = len(mesh.faces) > 0, 0
+    for first in range(0, count, step):
+        still()
+        here = np.flatnonzero((lower >= first) & (lower < first + step))
+        one, other = start[here].astype(np.int64), end[here].astype(np.int64)
+        up, down = one < other, one > other
+        forward, backward = np.sort(one[up] * count + other[up]), np.sort(other[down] * count + one[down])
+        if len(forward) + len(backward) == len(here) and np.array_equal(forward, backward) and np.all(np.diff(forward) > 0):
+            edges += len(forward)
+        else:
+            closed, edges = False, edges + len(np.unique(np.minimum(one, other) * count + np.maximum(one, other)))
+    return closed, edges
