@@ -19,6 +19,7 @@ def run(path: Path | None = None, change: Callable[[Scene], Scene] | None = None
     """
     from hqmodel.files import Settings, lost
 
+    from . import filing
     from .asks import Open
     from .display import require
     from .intents import Do, Edit
@@ -34,5 +35,5 @@ def run(path: Path | None = None, change: Callable[[Scene], Scene] | None = None
         session.apply([Edit("Command line", change)])
     if path is None and not session.settings.preferences.get("toured"):
         session.apply([Do("tour")])
-    session.offer(lost())
+    filing.offer(session, lost())
     Window(session, scale=scale).run()

@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from . import actions
+from . import actions, filing, working
 from .asks import (
     ChooseFile,
     Dialog,
@@ -31,35 +31,35 @@ def take(session: Session, dialog: Dialog, value: object) -> None:
     """Go on from a dialog that was answered with this value, None for cancelled, and is closed by now."""
     match dialog, value:
         case Unsaved(departure=departure), "save":
-            session.save(session.document.path, then=departure)
+            filing.save(session, session.document.path, departure)
         case Unsaved(departure=departure), "discard":
-            session.depart(departure)
+            filing.depart(session, departure)
         case Overwrite(path=path, departure=departure), "overwrite":
-            session.write(path, departure)
+            filing.write(session, path, departure)
         case Overwrite(departure=departure), "elsewhere":
-            session.save(None, departure)
+            filing.save(session, None, departure)
         case Recover(lost=lost), Recovered(lost=chosen, wanted=wanted):
             rest = tuple(one for one in lost if one is not chosen)
-            session.recover(chosen, rest) if wanted else session.forget(chosen, rest)
+            filing.recover(session, chosen, rest) if wanted else filing.forget(session, chosen, rest)
         case Recover(lost=lost), None:
             for one in lost:
                 one.release()
         case ChooseFile(purpose="open"), Path() as path:
-            session.leave(Open(path))
+            filing.leave(session, Open(path))
         case ChooseFile(purpose="save"), Path() | None as path:
-            session.save_chosen(path)
+            filing.save_chosen(session, path)
         case ChooseFile(purpose="export"), Path() as path:
             _export_to(session, path)
         case ChooseFile(purpose="import"), Path() as path:
             session.dialogs.append(ImportAs(ImportSettings(path)))
         case ImportAs(), ImportSettings() as settings:
-            session.start_fit(settings)
+            working.fit(session, settings)
         case Tour(), _:
             session.keep(session.settings.preferring(toured=True))
         case Palette(), str() as name:
             actions.perform(session, name)
         case ExportAs(), ExportSettings() as settings:
-            session.start_export(settings)
+            working.export(session, settings)
 
 
 def _export_to(session: Session, path: Path) -> None:

@@ -190,5 +190,7 @@ class Adjust:
     dialog: Dialog
 
 
-Handling = Take | Pull | Show | Drop | Equip | Choose | Play | Stop | Animate | Pick | Prefer
-Intent = Grab | Put | Release | Reset | Edit | Select | Look | See | Resize | Do | Ask | Answer | Adjust | Departure | Handling
+# What changes the scene, or is a part of doing so; what is seen of it; and the rest.
+Editing = Grab | Put | Release | Reset | Edit | Take | Pull | Show | Drop | Animate
+Seeing = Look | See | Resize | Play | Stop
+Intent = Editing | Seeing | Select | Choose | Pick | Equip | Prefer | Do | Ask | Adjust | Answer | Departure

@@ -14,7 +14,7 @@ from imgui_bundle import hello_imgui, imgui
 from hqmodel.files import settings_folder
 from hqmodel.gpu import Legend, Seen
 
-from . import layout, native, theme
+from . import filing, layout, native, theme
 from .asks import ChooseFile, Quit
 from .canvas import Canvas
 from .dialogs import front
@@ -155,7 +155,7 @@ class Window:
         session.poll()
         dropped, self._dropped = self._dropped, []
         if dropped:
-            session.take_file(dropped[0])
+            filing.take(session, dropped[0])
         self._restyle()
         self._retitle()
         self._shown.sync(self.params, session)
@@ -171,7 +171,7 @@ class Window:
         busy = imgui.is_any_item_active() or self.session.held is not None or self.hand.gizmo.before is not None
         if self.session.history.dragging and not busy:
             self.session.apply([Release()])
-        better = self.canvas.unfinished and self.session.refining
+        better = self.canvas.unfinished and self.session.preferences.refining
         if self.thumbnails.waiting and not better and self.spare():
             self.guard.run("Thumbnails", self._thumbnail)
         # ImGui spreads keys pressed in quick succession over several frames, which a window at rest would not draw
@@ -205,7 +205,7 @@ class Window:
 
     def draw(self, size: tuple[int, int]) -> int:
         session = self.session
-        spare = self.spare() if session.refining else 0.0
+        spare = self.spare() if session.preferences.refining else 0.0
         texture = self.canvas.draw(session.shown, session.shown_view, size, spare, self.hand.lit)
         session.located(session.shown, self.canvas.region)
         return texture
@@ -229,7 +229,7 @@ class Window:
         return self.session.finished
 
     def _restyle(self) -> None:
-        wanted = self.session.theme, hello_imgui.dpi_window_size_factor(), self.session.percent / 100
+        wanted = self.session.preferences.theme, hello_imgui.dpi_window_size_factor(), self.session.preferences.percent / 100
         started = imgui.get_frame_count() > 0  # in its first frame hello_imgui scales the style once more
         if (wanted, started) != self._themed:
             theme.apply(*wanted)

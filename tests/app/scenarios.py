@@ -13,7 +13,7 @@ import trimesh
 from imgui_bundle import imgui
 
 from hqmodel import files
-from hqmodel.app import native
+from hqmodel.app import editing, native
 from hqmodel.app.actions import HIDDEN
 from hqmodel.app.asks import Exported, Problem, Unsaved
 from hqmodel.app.intents import Do, Intent, Put, Select
@@ -320,7 +320,7 @@ def the_outliner(hands: Hands) -> None:
     hands.type_value(f"{PROPERTIES}##shapes[0].name", "x marks the spot")
     assert names() == ["x marks the spot", "Cylinder"], "X is a letter while a name is typed"
     while session.history.can_undo:
-        hands.session.undo()
+        editing.undo(hands.session)
     assert names() == ["Ball"]
 
 

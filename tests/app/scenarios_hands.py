@@ -10,6 +10,7 @@ from imgui_bundle import imgui
 from numpy.typing import ArrayLike
 
 from hqmodel import edit
+from hqmodel.app import editing
 from hqmodel.app.intents import Do, Edit, Equip, Look, Select
 from hqmodel.app.tools.aim import Aim
 from hqmodel.app.tools.handles import handles
@@ -107,9 +108,9 @@ def once(hands: Hands, label: str, before: Scene) -> None:
     session, text = hands.session, dumps(before)
     after = session.scene
     assert session.history.undo_label == label
-    session.undo()
+    editing.undo(session)
     assert dumps(session.scene) == text
-    session.redo()
+    editing.redo(session)
     assert session.scene == after
     assert after != before
 
@@ -125,7 +126,7 @@ def a_face_is_pushed(hands: Hands) -> None:
     assert abs(near - 1.0) < 1e-9, "the plane at the back stays"
     assert abs(far + 1.5) < 0.08, far
     once(hands, "Push plane", before)
-    session.undo()
+    editing.undo(session)
 
     point_at(hands, (0.2, -1.0, 0.1))
     drag(hands, (0, 6), (0, 20), release=False)
@@ -151,7 +152,7 @@ def a_face_is_pushed(hands: Hands) -> None:
     hands.settle()
     assert abs(planes(session.scene, 1)[1] + 1.25) < 1e-9, "what is typed is what is had"
     once(hands, "Push plane", before)
-    session.undo()
+    editing.undo(session)
 
     point_at(hands, (0.2, -1.0, 0.1))
     drag(hands, (0, 8), release=False)
@@ -180,7 +181,7 @@ def handles_of_a_strip(hands: Hands) -> None:
     drag(hands, *[(known.arrow[1] - known.arrow[0]) / 4] * 3)
     assert planes(session.scene, 1)[1] < -1.1
     once(hands, "Push plane", before)
-    session.undo()
+    editing.undo(session)
     hands.settle()
 
     top = int(np.argmin(known.ring[:, 1]))
@@ -191,7 +192,7 @@ def handles_of_a_strip(hands: Hands) -> None:
     assert 0.05 < abs(tilted[2]) < 0.9
     assert abs(np.linalg.norm(normals[1]) - 1.0) < 1e-9, "as thick as before"
     once(hands, "Tilt plane", before)
-    session.undo()
+    editing.undo(session)
     hands.settle()
 
     goto(hands, known.middle)
@@ -214,7 +215,7 @@ def pat_and_chop(hands: Hands) -> None:
     normals, _ = world_planes(session.scene.shapes[0], 0.0)
     assert normals[3] @ spot / np.linalg.norm(normals[3]) > 0.99, "tangent where it was pressed"
     once(hands, "Pat", before)
-    session.undo()
+    editing.undo(session)
 
     session.apply([Equip(Kit("chop"))])
     goto(hands, aim(hands).pixel((0, 0, 0)) - (150, 50))
@@ -234,7 +235,7 @@ def soften_and_wheel(hands: Hands) -> None:
     drag(hands, (-20, 0), (-40, 0))
     assert [strip.gamma == 20 for strip in session.scene.shapes[0].strips] == [True, False, True]
     once(hands, "Exponent", before)
-    session.undo()
+    editing.undo(session)
 
     session.apply([Equip(Kit("faces"))])
     point_at(hands, (0.2, -1.0, 0.1))
@@ -247,7 +248,7 @@ def soften_and_wheel(hands: Hands) -> None:
     assert session.scene.shapes[0].strips[1].gamma < 20
     assert session.view.camera.distance == distance
     once(hands, "Exponent", before)
-    session.undo()
+    editing.undo(session)
 
     session.apply([Select(0)])
     hands.keys(Key.left_bracket)
@@ -272,7 +273,7 @@ def grab_turn_scale(hands: Hands) -> None:
     hands.settle()
     assert session.held is None
     once(hands, "Move", before)
-    session.undo()
+    editing.undo(session)
 
     hands.keys(Key.r)
     hands.keys(Key.z)
@@ -281,7 +282,7 @@ def grab_turn_scale(hands: Hands) -> None:
     hands.keys(Key.enter)
     assert np.allclose(edit.angles(session.scene.shapes[0].transform.rotation), (0, 0, 30))
     once(hands, "Turn", before)
-    session.undo()
+    editing.undo(session)
 
     hands.keys(Key.s)
     hands.ctx.key_chars("2")
@@ -289,7 +290,7 @@ def grab_turn_scale(hands: Hands) -> None:
     hands.keys(Key.enter)
     assert session.scene.shapes[0].transform.scale == (2, 2, 2)
     once(hands, "Scale", before)
-    session.undo()
+    editing.undo(session)
 
     hands.keys(Key.g)
     move(hands, (80, 0))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from hqmodel import files
+from hqmodel.app import filing
 from hqmodel.app.asks import Overwrite, Recover
 from hqmodel.edit import new_scene
 
@@ -20,7 +21,7 @@ def after_a_crash(hands: Hands) -> None:
         ring = files.Ring()
         ring.keep(session.scene.changed(level=0.5), files.Origin(name, file, "what it held then"))
         ring.abandon()
-    session.offer(files.lost())
+    filing.offer(session, files.lost())
     hands.settle()
     asked = session.dialogs[-1]
     assert isinstance(asked, Recover)

@@ -7,9 +7,10 @@ from collections import Counter
 import pytest
 
 from hqmodel import files
-from hqmodel.app.actions import ACTIONS, HIDDEN, MENUS, RECENT, THEMES, Entry
+from hqmodel.app.actions import ACTIONS, HIDDEN, MENUS, RECENT, Entry
 from hqmodel.app.asks import About, ChooseFile, ExportAs, Problem, Shortcuts
 from hqmodel.app.intents import Do, Put, Select
+from hqmodel.app.preferences import THEMES
 from hqmodel.app.session import Session
 from hqmodel.model import VIEWS
 
@@ -134,7 +135,7 @@ def test_modes_and_themes_are_checked_one_at_a_time(session: Session) -> None:
 
 
 def test_an_unknown_theme_in_the_settings_is_the_first_one() -> None:
-    assert Session(files.Settings(preferences={"theme": "plaid"})).theme == THEMES[0]
+    assert Session(files.Settings(preferences={"theme": "plaid"})).preferences.theme == THEMES[0]
 
 
 def test_panels_hide_and_come_back(session: Session) -> None:

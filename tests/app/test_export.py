@@ -9,6 +9,7 @@ import pytest
 import trimesh
 
 from hqmodel import files, mesh
+from hqmodel.app import working
 from hqmodel.app.asks import ChooseFile, ExportAs, Exported, ExportSettings, Problem
 from hqmodel.app.export import ExportJob
 from hqmodel.app.intents import Answer, Ask, Do, Put
@@ -43,7 +44,7 @@ def test_an_export_writes_the_body_and_reports_it(session: Session, tmp_path: Pa
 
 
 def test_the_scene_can_change_meanwhile(session: Session, tmp_path: Path) -> None:
-    session.start_export(ExportSettings(tmp_path / "ball.ply", resolution=32))
+    working.export(session, ExportSettings(tmp_path / "ball.ply", resolution=32))
     session.apply([Put(("shapes", 0, "transform", "scale"), (3.0, 3.0, 3.0), "Scale")])
     ended(session)
     assert max(trimesh.load_mesh(tmp_path / "ball.ply").extents) == pytest.approx(2.0, abs=1e-3)
@@ -80,7 +81,7 @@ def test_a_stopped_export_leaves_the_old_file_and_nothing_else(tmp_path: Path) -
 
 
 def test_stopping_is_said(session: Session, tmp_path: Path) -> None:
-    session.start_export(ExportSettings(tmp_path / "ball.obj", resolution=256))
+    working.export(session, ExportSettings(tmp_path / "ball.obj", resolution=256))
     session.apply([Do("stop export")])
     ended(session)
     assert session.dialogs == []
@@ -89,7 +90,7 @@ def test_stopping_is_said(session: Session, tmp_path: Path) -> None:
 
 
 def test_quitting_stops_it(session: Session, tmp_path: Path) -> None:
-    session.start_export(ExportSettings(tmp_path / "ball.obj", resolution=256))
+    working.export(session, ExportSettings(tmp_path / "ball.obj", resolution=256))
     session.apply([Do("quit")])
     assert session.finished
     assert session.job is not None
@@ -106,7 +107,7 @@ def test_quitting_stops_it(session: Session, tmp_path: Path) -> None:
 )
 def test_what_goes_wrong_is_told(session: Session, tmp_path: Path, settings: ExportSettings, said: str) -> None:
     moved = ExportSettings(tmp_path / settings.path, settings.resolution)
-    session.start_export(moved)
+    working.export(session, moved)
     ended(session)
     problem = session.dialogs[-1]
     assert isinstance(problem, Problem)

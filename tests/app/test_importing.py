@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from hqmodel import files
+from hqmodel.app import editing, filing, working
 from hqmodel.app.asks import ImportAs, ImportSettings, Problem
 from hqmodel.app.importing import SHOWN
 from hqmodel.app.intents import Answer, Do, Put
@@ -37,7 +38,7 @@ def ended(session: Session) -> None:
 
 
 def test_a_dropped_cloud_is_fitted_in_place_of_a_scene_nobody_touched(session: Session, tmp_path: Path) -> None:
-    session.take_file(ball(tmp_path / "ball.xyz", 5000))
+    filing.take(session, ball(tmp_path / "ball.xyz", 5000))
     asked = session.dialogs[-1]
     assert isinstance(asked, ImportAs)
     before = session.scene
@@ -51,14 +52,14 @@ def test_a_dropped_cloud_is_fitted_in_place_of_a_scene_nobody_touched(session: S
     assert len(session.cloud.points) <= SHOWN + 1
     assert np.median(np.abs(session.cloud.distances)) < 1e-3
     assert session.selection.shapes == (0,)
-    session.undo()
+    editing.undo(session)
     assert session.scene is before
 
 
 def test_beside_what_there_is(session: Session, tmp_path: Path) -> None:
     session.apply([Put(("shapes", 0, "hardness"), 8.0, "Hardness")])
     first = session.scene.shapes[0]
-    session.start_fit(ImportSettings(ball(tmp_path / "ball.xyz")))
+    working.fit(session, ImportSettings(ball(tmp_path / "ball.xyz")))
     ended(session)
     assert session.scene.shapes[0] == first
     assert len(session.scene.shapes) == 2
@@ -71,7 +72,7 @@ def test_what_is_wrong_with_a_file_is_told_and_nothing_changes(session: Session,
     before = session.scene
     (tmp_path / "bad.xyz").write_text("1 2\n")
     for path in (tmp_path / "bad.xyz", tmp_path / "nowhere.ply"):
-        session.start_fit(ImportSettings(path))
+        working.fit(session, ImportSettings(path))
         ended(session)
         told = session.dialogs.pop()
         assert isinstance(told, Problem)
@@ -82,7 +83,7 @@ def test_what_is_wrong_with_a_file_is_told_and_nothing_changes(session: Session,
 
 def test_it_can_be_stopped(session: Session, tmp_path: Path) -> None:
     before = session.scene
-    session.start_fit(ImportSettings(ball(tmp_path / "ball.xyz"), parts=8))
+    working.fit(session, ImportSettings(ball(tmp_path / "ball.xyz"), parts=8))
     session.apply([Do("stop export")])
     ended(session)
     assert session.message == "Fit cancelled; nothing was changed"

@@ -10,7 +10,7 @@ from time import monotonic, sleep
 import pytest
 
 from hqmodel import files
-from hqmodel.app import recovery
+from hqmodel.app import editing, filing, recovery
 from hqmodel.app.asks import ChooseFile, Open, Overwrite, Problem, Quit, Recover, Recovered
 from hqmodel.app.intents import Answer, Do, Put
 from hqmodel.app.session import Session
@@ -46,7 +46,7 @@ def crash(session: Session) -> None:
 
 def offered() -> Session:
     session = Session(files.Settings())
-    session.offer(files.lost())
+    filing.offer(session, files.lost())
     return session
 
 
@@ -102,9 +102,9 @@ def test_what_is_saved_or_given_up_is_not_offered(session: Session, tmp_path: Pa
     work(session, 9.0)
     session.poll()
     if goodbye == "save":
-        session.save(tmp_path / "mine.json")
+        filing.save(session, tmp_path / "mine.json")
     elif goodbye == "undo":
-        session.undo()
+        editing.undo(session)
     else:
         session.apply([Quit(), Answer("discard")])
         assert session.finished

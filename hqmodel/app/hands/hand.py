@@ -120,7 +120,7 @@ def known_handles(session: Session, aim: Aim) -> Handles | None:
     shape, strip = session.selection.active, session.selection.strip
     if session.kit.tool != "faces" or shape is None or strip is None:
         return None
-    return handles(session.scene, shape, strip, aim, session.percent / 100)
+    return handles(session.scene, shape, strip, aim, session.preferences.percent / 100)
 
 
 def _pressed(session: Session, hand: Hand, aim: Aim) -> list[Intent]:

@@ -42,7 +42,7 @@ def _pointed(point: tuple[float, float, float] | None) -> str:
 
 def _frame_time(session: Session) -> str:
     """How long a frame takes, averaged over the last ones, when that is asked for."""
-    return f"   {1000 / max(imgui.get_io().framerate, 1e-3):.1f} ms a frame" if session.frame_time else ""
+    return f"   {1000 / max(imgui.get_io().framerate, 1e-3):.1f} ms a frame" if session.preferences.frame_time else ""
 
 
 def notice(session: Session) -> str:

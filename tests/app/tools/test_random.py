@@ -7,6 +7,7 @@ import json
 import numpy as np
 from numpy.random import Generator
 
+from hqmodel.app import editing
 from hqmodel.app.intents import Do, Drop, Equip, Pull, Release, Select, Take
 from hqmodel.app.session import Session
 from hqmodel.app.tools import reach
@@ -88,7 +89,7 @@ def test_a_thousand_random_gestures() -> None:
             assert np.all(np.isfinite(value(Terms.of(session.scene), points)))
     assert len(session.history.labels) > GESTURES / 4
     while session.history.can_undo:
-        session.undo()
+        editing.undo(session)
     assert session.scene == first
 
 
