@@ -12,6 +12,8 @@ from .asks import (
     Dialog,
     ExportAs,
     ExportSettings,
+    FilmAs,
+    FilmSettings,
     ImportAs,
     ImportSettings,
     Open,
@@ -60,10 +62,14 @@ def take(session: Session, dialog: Dialog, value: object) -> None:
             actions.perform(session, name)
         case ExportAs(), ExportSettings() as settings:
             working.export(session, settings)
+        case FilmAs(), FilmSettings() as settings:
+            working.shoot(session, settings)
 
 
 def _export_to(session: Session, path: Path) -> None:
     """The chosen file goes into the export dialog that asked for it."""
-    asking = session.dialogs[-1]
-    if isinstance(asking, ExportAs):
-        session.dialogs[-1] = replace(asking, settings=replace(asking.settings, path=path))
+    match session.dialogs[-1]:
+        case ExportAs(settings=settings) as asking:
+            session.dialogs[-1] = replace(asking, settings=replace(settings, path=path))
+        case FilmAs(settings=filming) as asking:
+            session.dialogs[-1] = replace(asking, settings=replace(filming, path=path))

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from hqmodel.edit.animation import FPS
 from hqmodel.files import Lost
 
 if TYPE_CHECKING:
@@ -156,6 +157,42 @@ class Exported:
 
 
 @dataclass(frozen=True)
+class FilmSettings:
+    """What a film shows, and where it is written: one of the scene's animations or none, a turn around the body or not.
+
+    `size` is (width, height) in pixels; `whole`: from so far that all is seen, else from where the camera is.
+    """
+
+    path: Path
+    animation: int | None
+    turning: bool
+    seconds: float
+    fps: float = FPS
+    size: tuple[int, int] = (640, 480)
+    whole: bool = False
+
+    @property
+    def frames(self) -> int:
+        return round(self.seconds * self.fps)
+
+
+@dataclass(frozen=True)
+class FilmAs:
+    """How what moves shall be exported. Answered by FilmSettings. `animations`: the name and the seconds of each there is."""
+
+    settings: FilmSettings
+    animations: Mapping[int, tuple[str, float]]
+
+
+@dataclass(frozen=True)
+class Filmed:
+    """The files that a film was written to, and what to say of it."""
+
+    files: tuple[Path, ...]
+    told: str
+
+
+@dataclass(frozen=True)
 class Palette:
     """Every action, to be found by a few letters. Answered by the name of the one to do."""
 
@@ -183,6 +220,5 @@ class About:
     """What this program is."""
 
 
-Dialog = (
-    Unsaved | Overwrite | Recover | ChooseFile | Problem | ExportAs | Exported | ImportAs | Palette | Shortcuts | Tour | About
-)
+Saying = Problem | Exported | Filmed | About
+Dialog = Unsaved | Overwrite | Recover | ChooseFile | ExportAs | FilmAs | ImportAs | Palette | Shortcuts | Tour | Saying

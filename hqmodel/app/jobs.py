@@ -83,7 +83,7 @@ class Job(ABC, Generic[T]):
             self._wake()
 
     @abstractmethod
-    def _faults(self) -> type[Exception]:
+    def _faults(self) -> type[Exception] | tuple[type[Exception], ...]:
         """What the work raises, with one line, where its input is at fault."""
 
     def _report(self, progress: float, stage: str) -> None:

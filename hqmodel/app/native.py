@@ -37,7 +37,7 @@ class NativeChooser:
 
 
 def _opened(asked: ChooseFile) -> Any:
-    filters = ["Presets" if ".json" in asked.endings else "Meshes", " ".join(f"*{ending}" for ending in asked.endings)]
+    filters = ["Presets" if ".json" in asked.endings else "Files", " ".join(f"*{ending}" for ending in asked.endings)]
     if asked.reading:
         return portable_file_dialogs.open_file(
             "Open" if asked.purpose == "open" else "Import", str(asked.folder), [*filters, "All files", "*"]

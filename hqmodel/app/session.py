@@ -16,6 +16,7 @@ from . import actions, applying, working
 from .asks import Departure, Dialog, Exported, Problem
 from .document import Document
 from .export import ExportJob
+from .filming import FilmJob
 from .importing import Cloud, FitJob
 from .intents import Intent, Location
 from .player import Player
@@ -47,7 +48,7 @@ class Session:
         self.wake = wake
         self.size = (800, 600)
         self.dialogs: list[Dialog] = []
-        self.job: ExportJob | FitJob | None = None
+        self.job: ExportJob | FilmJob | FitJob | None = None
         self.exported: Exported | None = None
         self.cloud: Cloud | None = None
         self.cloud_hidden: bool = False

@@ -5,12 +5,13 @@ from __future__ import annotations
 from functools import reduce
 from typing import TYPE_CHECKING
 
-from hqmodel import edit
+from hqmodel import edit, film
 from hqmodel.model import Scene
 
-from .asks import Exported, ExportSettings, ImportSettings, Problem
+from .asks import Exported, ExportSettings, Filmed, FilmSettings, ImportSettings, Problem
 from .editing import release
 from .export import ExportJob
+from .filming import FilmJob
 from .importing import FitJob, Fitted
 from .intents import Choose, Edit
 
@@ -23,6 +24,17 @@ def export(session: Session, settings: ExportSettings) -> None:
     release(session)
     session.job = ExportJob(session.scene, settings, session.wake)
     session.say(f"Exporting {settings.path.name}")
+
+
+def shoot(session: Session, settings: FilmSettings) -> None:
+    """Begin to film the scene, as it is seen now."""
+    release(session)
+    scene, view = session.scene, session.view
+    moving = None if settings.animation is None else edit.animation_at(scene, settings.animation)
+    motion = (moving, settings.turning, settings.frames, settings.seconds)
+    plan = film.Plan(scene, view.camera, *motion, settings.size, view.mode, settings.whole, view.cut)
+    session.job = FilmJob(plan, settings.path, session.wake)
+    session.say(f"Filming {settings.path.name}")
 
 
 def fit(session: Session, settings: ImportSettings) -> None:
@@ -47,7 +59,10 @@ def look_after(session: Session) -> None:
         case Exported():
             session.exported = job.outcome
             session.dialogs.append(job.outcome)
-            session.say(f"Exported {job.settings.path.name}")
+            session.say(f"Exported {job.outcome.path.name}")
+        case Filmed():
+            session.dialogs.append(job.outcome)
+            session.say(f"Exported {job.outcome.files[0].name}: {job.outcome.told}")
         case Fitted():
             _take_in(session, job.outcome)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from hqmodel import edit, files
-from hqmodel.app.asks import Open
+from hqmodel.app.asks import Filmed, Open
 from hqmodel.app.intents import Edit
 from hqmodel.model import Scene
 
@@ -80,6 +80,32 @@ def the_timeline(hands: Hands) -> None:
     hands.shoot("timeline-fault")
     hands.click(f"{TIMELINE}$$0/###remove")
     assert not session.scene.animations
+
+
+def a_film_of_it(hands: Hands) -> None:
+    """The timeline's own export: the dialog, a film in the background, and one that is stopped."""
+    session, dialog = hands.session, "//Export Animation"
+    hands.ctx.item_click(f"{PROPERTIES}##shapes[0].strips[0].gamma", imgui.MouseButton_.right)
+    hands.click("//$FOCUSED/Animate...")
+    for name in ("stopped", "kept"):
+        hands.click(f"{TIMELINE}Export...")
+        hands.type_value(f"{dialog}/##file", str(hands.folder / f"{name}.gif"))
+        hands.type_value(f"{dialog}/##seconds", 0.2 if name == "kept" else 60.0)
+        hands.type_value(f"{dialog}/##fps", 20)
+        hands.type_value(f"{dialog}/##pixels/$$0", 80)
+        hands.type_value(f"{dialog}/##pixels/$$1", 60)
+        hands.shoot("film")
+        hands.click(f"{dialog}/Export")
+        assert session.job is not None
+        if name == "stopped":
+            hands.click("//StatusBar/Stop")
+        hands.wait(lambda: session.job is None, 3000)
+    told = session.dialogs[-1]
+    assert isinstance(told, Filmed), told
+    assert told.told == "4 frames, 0.2 s, 80 x 60 pixels"
+    hands.shoot("filmed")
+    hands.click("//Exported/OK")
+    assert [path.name for path in hands.folder.glob("*.gif")] == ["kept.gif"]
 
 
 def gamma(scene: Scene) -> float:

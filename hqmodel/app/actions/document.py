@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from hqmodel import files
+from hqmodel import edit, files
 
 from .. import filing
-from ..asks import ChooseFile, ExportAs, ExportSettings, New, Problem, Quit
+from ..asks import ChooseFile, ExportAs, ExportSettings, FilmAs, FilmSettings, New, Problem, Quit
 from ..editing import release
 from ..forecast import Forecast
 from .action import Action
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
     from ..session import Session
 
 _UNBOUNDED = "The body runs on without end: give it bounds in the Scene panel, the box that it is cut by."
+# Seconds that a turn around the body takes, unless something else says so.
+_TURN = 6.0
 
 
 def _save(session: Session) -> None:
@@ -72,6 +75,20 @@ def _export(session: Session) -> None:
     session.dialogs.append(ExportAs(ExportSettings(path.with_suffix(".glb")), told))
 
 
+def _film(session: Session) -> None:
+    """Of the animation that is picked, or else the first, or else a turn around the body."""
+    release(session)
+    found: dict[int, tuple[str, float]] = {}
+    for index in range(len(session.scene.animations)):
+        with suppress(edit.EditError):  # the timeline says what is wrong with it
+            animation = edit.animation_at(session.scene, index)
+            found[index] = animation.name or f"Animation {index + 1}", animation.duration
+    chosen = session.animation if session.animation in found else next(iter(found), None)
+    seconds = _TURN if chosen is None else found[chosen][1]
+    path = (filing.folder(session) / session.document.file_name).with_suffix(".gif")
+    session.dialogs.append(FilmAs(FilmSettings(path, chosen, chosen is None, seconds), found))
+
+
 DOCUMENT: dict[str, Action] = {
     "new": Action("New", lambda s: filing.leave(s, New()), ("Ctrl+N",)),
     "open": Action("Open...", _open, ("Ctrl+O",)),
@@ -79,6 +96,7 @@ DOCUMENT: dict[str, Action] = {
     "save as": Action("Save As...", _save_as, ("Ctrl+Shift+S",)),
     "versions": Action("Earlier Versions...", _versions, (), _has_versions),
     "export": Action("Export...", _export, ("Ctrl+E",), lambda s: s.job is None),
+    "film": Action("Export Animation...", _film, ("Ctrl+Shift+E",), lambda s: s.job is None),
     "import": Action("Import and Fit...", _import, ("Ctrl+I",), lambda s: s.job is None),
     "stop export": Action("Stop What Is Under Way", _stop_export, (), _working),
     "cloud": Action("Imported Points", _show_cloud, (), lambda s: s.cloud is not None, lambda s: not s.cloud_hidden),

@@ -18,7 +18,22 @@ RECENT = "recent"
 
 # Names of actions, None for a line between, a pair for a menu within; RECENT stands for the recent files.
 MENUS: dict[str, tuple[Entry, ...]] = {
-    "File": ("new", "open", RECENT, None, "save", "save as", "versions", None, "import", "export", "stop export", None, "quit"),
+    "File": (
+        "new",
+        "open",
+        RECENT,
+        None,
+        "save",
+        "save as",
+        "versions",
+        None,
+        "import",
+        "export",
+        "film",
+        "stop export",
+        None,
+        "quit",
+    ),
     "Edit": ("undo", "redo", None, "select all", "select none", None, "duplicate", "delete", "move up", "move down"),
     "Add": (*(f"add {kind}" for kind in edit.PRIMITIVES), *(f"add prism {n}" for n in PRISMS), None, "add strip"),
     "Shape": (

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
-from pathlib import Path
-from typing import Literal, TypeVar
+from typing import Literal
 
 import numpy as np
 from imgui_bundle import imgui
@@ -14,10 +12,8 @@ from ..asks import ChooseFile, Dialog, ExportAs, Exported, ExportSettings, Metho
 from ..intents import Adjust, Answer, Ask, Intent
 from ..panels.status import ERROR
 from .buttons import buttons
+from .fields import combo, file, label
 
-Key = TypeVar("Key", bound=str)
-
-_LABEL, _WIDTH = 8.0, 24.0
 _UNITS: dict[Unit | Literal[""], str] = {
     "": "None: numbers stay as they are",
     "mm": "Millimetres",
@@ -35,7 +31,7 @@ _PURPOSES: dict[str, tuple[str, Unit | None, float | None, int | None]] = {
     "3D printing": (".3mf", "mm", 80.0, None),
     "Games": (".glb", "m", 1.0, 20_000),
 }
-_UPS: dict[Up | Literal[""], str] = {"z": "z up", "y": "y up"}
+_UPS: dict[Up | None, str] = {"z": "z up", "y": "y up"}
 _RESOLUTIONS = 16, 1024
 _FACES, _USUAL_FACES = (100, 1_000_000), 20_000
 
@@ -48,18 +44,19 @@ def draw(dialog: Dialog) -> list[Intent]:
     settings = dialog.settings
     settings = _purpose(settings)
     suffix = settings.path.suffix.lower()
-    chosen = _combo("Format", suffix, FORMATS)
+    chosen = combo("Format", suffix, FORMATS)
     if chosen != suffix:
         settings = replace(settings, path=settings.path.with_suffix(chosen))
-    settings, browsing = _file(settings)
-    settings = replace(settings, method=_combo("Made by", settings.method, _METHODS))
+    path, browsing = file(settings.path)
+    settings = replace(settings, path=path)
+    settings = replace(settings, method=combo("Made by", settings.method, _METHODS))
     settings = _resolution(settings)
     imgui.begin_disabled(settings.method == "radial")
     settings = _reduction(settings)
     imgui.end_disabled()
     settings = _size(settings)
     usual = f"As usual for the format: {UP_AXIS.get(chosen, 'z')} up"
-    settings = replace(settings, up=_combo("Up", settings.up or "", {"": usual, **_UPS}) or None)
+    settings = replace(settings, up=combo("Up", settings.up, {None: usual, **_UPS}))
     settings = _extras(settings)
     problem = _problem(settings, list(FORMATS))
     if problem:
@@ -107,7 +104,7 @@ def _figure(value: object) -> str:
 
 def _purpose(settings: ExportSettings) -> ExportSettings:
     """Buttons that set everything as a purpose has it."""
-    _label("For")
+    label("For")
     for name, (suffix, unit, size, faces) in _PURPOSES.items():
         if imgui.button(name):
             path = settings.path.with_suffix(suffix)
@@ -117,42 +114,8 @@ def _purpose(settings: ExportSettings) -> ExportSettings:
     return settings
 
 
-def _label(text: str) -> None:
-    imgui.align_text_to_frame_padding()
-    imgui.text_unformatted(text)
-    imgui.same_line(_LABEL * imgui.get_font_size())
-    imgui.set_next_item_width(_WIDTH * imgui.get_font_size())
-
-
-def _combo(label: str, present: Key, options: Mapping[Key, str]) -> Key:
-    """One of the options' keys, chosen by their names."""
-    _label(label)
-    if imgui.begin_combo(f"##{label}", options.get(present, present)):
-        for key, name in options.items():
-            if imgui.selectable(name, key == present)[0]:
-                present = key
-        imgui.end_combo()
-    return present
-
-
-def _file(settings: ExportSettings) -> tuple[ExportSettings, bool]:
-    _label("File")
-    browse = "Browse..."
-    imgui.set_next_item_width(
-        _WIDTH * imgui.get_font_size()
-        - imgui.calc_text_size(browse).x
-        - 2 * imgui.get_style().frame_padding.x
-        - imgui.get_style().item_spacing.x
-    )
-    changed, text = imgui.input_text("##file", str(settings.path))
-    if changed and Path(text).name:
-        settings = replace(settings, path=Path(text))
-    imgui.same_line()
-    return settings, imgui.button(browse)
-
-
 def _resolution(settings: ExportSettings) -> ExportSettings:
-    _label("Resolution")
+    label("Resolution")
     flags = imgui.SliderFlags_.logarithmic | imgui.SliderFlags_.always_clamp
     _, cells = imgui.slider_int("##resolution", settings.resolution, *_RESOLUTIONS, "%d cells along the longest side", flags)
     return replace(settings, resolution=cells)
@@ -160,7 +123,7 @@ def _resolution(settings: ExportSettings) -> ExportSettings:
 
 def _reduction(settings: ExportSettings) -> ExportSettings:
     """To how many triangles the mesh shall be reduced."""
-    _label("Reduce to")
+    label("Reduce to")
     wanted, faces = settings.target_faces is not None, settings.target_faces or _USUAL_FACES
     _, wanted = imgui.checkbox("##reduced", wanted)
     imgui.same_line()
@@ -174,8 +137,8 @@ def _reduction(settings: ExportSettings) -> ExportSettings:
 
 def _size(settings: ExportSettings) -> ExportSettings:
     """The unit, and how long the longest side shall be in it."""
-    unit = _combo("Unit", settings.unit or "", _UNITS)
-    _label("Longest side")
+    unit = combo("Unit", settings.unit or "", _UNITS)
+    label("Longest side")
     wanted, size = settings.size is not None, settings.size or 100.0
     _, wanted = imgui.checkbox("##sized", wanted)
     imgui.same_line()
@@ -187,7 +150,7 @@ def _size(settings: ExportSettings) -> ExportSettings:
 
 
 def _extras(settings: ExportSettings) -> ExportSettings:
-    _label("With")
+    label("With")
     _, colors = imgui.checkbox("Colours", settings.colors)
     imgui.same_line()
     _, normals = imgui.checkbox("Normals", settings.normals)

@@ -12,6 +12,8 @@ from ..asks import (
     Dialog,
     ExportAs,
     Exported,
+    FilmAs,
+    Filmed,
     ImportAs,
     Overwrite,
     Palette,
@@ -23,7 +25,7 @@ from ..asks import (
 )
 from ..intents import Answer, Ask, Intent
 from ..session import Session
-from . import about, chooser, exporting, importing, palette, problem, recover, shortcuts, tour, unsaved
+from . import about, chooser, exporting, filming, importing, palette, problem, recover, shortcuts, tour, unsaved
 from .buttons import untouched
 
 _DRAWN: dict[type[Dialog], Callable[[Dialog], list[Intent]]] = {
@@ -34,6 +36,8 @@ _DRAWN: dict[type[Dialog], Callable[[Dialog], list[Intent]]] = {
     Problem: problem.draw,
     ExportAs: exporting.draw,
     Exported: exporting.draw_report,
+    FilmAs: filming.draw,
+    Filmed: filming.draw_report,
     ImportAs: importing.draw,
     Palette: palette.draw,
     Shortcuts: shortcuts.draw,
@@ -78,9 +82,11 @@ def _title(dialog: Dialog) -> str:
             return "Unsaved Work Found"
         case ExportAs():
             return "Export"
+        case FilmAs():
+            return "Export Animation"
         case ImportAs():
             return "Fit"
-        case Exported():
+        case Exported() | Filmed():
             return "Exported"
         case Palette():
             return "Commands"

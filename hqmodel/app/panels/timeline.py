@@ -14,7 +14,7 @@ from hqmodel.edit.animation import Animation, Sweep
 from hqmodel.edit.sweeping import remove_sweep, turntable
 from hqmodel.model import Scene
 
-from ..intents import Edit, Grab, Intent, Pick, Play, Put, Stop
+from ..intents import Do, Edit, Grab, Intent, Pick, Play, Put, Stop
 from ..session import Session
 from .status import ERROR
 
@@ -88,7 +88,7 @@ def _followed(session: Session, reel: Reel) -> list[Intent]:
 
 
 def _tools(session: Session, reel: Reel, picked: int | None) -> list[Intent]:
-    """Stop, a slider through the round, and the turntable."""
+    """Stop, a slider through the round, the turntable, and the way out as a film."""
     intents: list[Intent] = []
     player = session.player
     imgui.begin_disabled(player.animation is None)
@@ -97,9 +97,8 @@ def _tools(session: Session, reel: Reel, picked: int | None) -> list[Intent]:
     imgui.end_disabled()
     imgui.set_item_tooltip("Stop, and put everything back")
     imgui.same_line()
-    label = "Turntable"
-    wide = imgui.calc_text_size(label).x + 2 * imgui.get_style().frame_padding.x
-    imgui.set_next_item_width(-wide - imgui.get_style().item_spacing.x)
+    label, export = "Turntable", "Export..."
+    imgui.set_next_item_width(-_wide(label) - _wide(export))
     shown = reel.animations[picked] if picked is not None else ""
     imgui.begin_disabled(isinstance(shown, str))
     share = player.share if player.animation is not None and reel.playing == picked else 0.0
@@ -113,7 +112,19 @@ def _tools(session: Session, reel: Reel, picked: int | None) -> list[Intent]:
         change = partial(turntable, camera=session.view.camera)
         intents += [Edit(label, change), Pick(len(reel.animations))]
     imgui.set_item_tooltip("Add an animation in which the camera goes once around")
+    imgui.same_line()
+    imgui.begin_disabled(session.job is not None)
+    if imgui.button(export):
+        intents.append(Do("film"))
+    imgui.end_disabled()
+    imgui.set_item_tooltip("Write the animation as a GIF, as pictures, or as MP4")
     return intents
+
+
+def _wide(label: str) -> float:
+    """The width of a button, with the space before it."""
+    style = imgui.get_style()
+    return imgui.calc_text_size(label).x + 2 * style.frame_padding.x + style.item_spacing.x
 
 
 def _row(session: Session, reel: Reel, index: int, animation: Animation) -> list[Intent]:
