@@ -70,8 +70,8 @@ class Form:
             self.intents += [Put(location, held, spec.label) for location in locations]
         _explained(_help(spec))
 
-    def color(self, location: Location) -> None:
-        """A colour's three numbers, with a picker."""
+    def color(self, location: Location, *others: Location) -> None:
+        """A colour's three numbers, with a picker; the others get the same."""
         spec = FIELDS[pattern(location) + "[]"]
         self.label(spec.label, _help(spec))
         imgui.set_next_item_width(-1)
@@ -79,7 +79,8 @@ class Form:
         changed, value = imgui.color_edit3(f"##{place(location)}", list(edit.get(self.scene, location)), flags)
         self._watched(location, spec.label)
         if changed:
-            self.intents.append(Put(location, tuple(round(min(1.0, max(0.0, part)), 4) for part in value), spec.label))
+            color = tuple(round(min(1.0, max(0.0, part)), 4) for part in value)
+            self.intents += [Put(each, color, spec.label) for each in (location, *others)]
 
     def rotation(self, location: Location) -> None:
         """A unit quaternion as three angles in degrees, about x, then y, then z."""

@@ -22,7 +22,7 @@ from .history import History
 from .paths import EditError, get, locations, parse, put, put_fields, reset
 from .planes import push_plane, slide_strip, spread_planes, tilt_strip
 from .primitives import PRIMITIVES, new_scene, new_shape, prism
-from .shapes import add_shape, duplicate_shape, move_shape, remove_shapes
+from .shapes import add_shape, duplicate_shape, move_shape, remove_shapes, rename_shapes
 from .strips import add_strip, duplicate_strip, move_strip, remove_strip, set_group, ungroup
 
 __all__ = [
@@ -71,6 +71,7 @@ __all__ = [
     "remove_animation",
     "remove_shapes",
     "remove_strip",
+    "rename_shapes",
     "repeat_around",
     "replace_frame",
     "reset",

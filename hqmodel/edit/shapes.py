@@ -1,4 +1,4 @@
-"""Shapes added, removed, copied and put in another order: pure functions from a scene to a new one.
+"""Shapes added, removed, copied, named and put in another order: pure functions from a scene to a new one.
 
 Each raises `EditError` with one line when an index is not there or the result would not be a valid scene.
 """
@@ -6,6 +6,7 @@ Each raises `EditError` with one line when an index is not there or the result w
 from __future__ import annotations
 
 from collections.abc import Collection
+from itertools import count
 
 from hqmodel.model import Scene, Shape, unused_name
 
@@ -37,6 +38,18 @@ def move_shape(scene: Scene, index: int, to: int) -> Scene:
     get(scene, ("shapes", to))
     rest = [*scene.shapes[:index], *scene.shapes[index + 1 :]]
     return put(scene, ("shapes",), (*rest[:to], shape, *rest[to:]))
+
+
+def rename_shapes(scene: Scene, indices: Collection[int], name: str) -> Scene:
+    """The shapes called by the name and a number, in their order, passing over what others are called; one alone by the name."""
+    for index in indices:
+        get(scene, ("shapes", index))
+    taken = {shape.name for index, shape in enumerate(scene.shapes) if index not in indices}
+    free = (numbered for number in count(1) if (numbered := f"{name} {number}") not in taken)
+    shapes = list(scene.shapes)
+    for index in sorted(set(indices)):
+        shapes[index] = shapes[index].changed(name=next(free) if name and len(indices) > 1 else name)
+    return put(scene, ("shapes",), tuple(shapes))
 
 
 def _named(scene: Scene, shape: Shape) -> Shape:

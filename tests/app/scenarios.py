@@ -324,6 +324,32 @@ def the_outliner(hands: Hands) -> None:
     assert names() == ["Ball"]
 
 
+def several_at_once(hands: Hands) -> None:
+    """Several shapes get a name and a colour together, each in one step."""
+    session = hands.session
+
+    def names() -> list[str]:
+        return [shape.name for shape in session.scene.shapes]
+
+    session.apply([Do("add block"), Do("add cylinder"), Do("select all")])
+    before, steps = session.scene, len(session.history.labels)
+    hands.settle()
+    hands.type_value(f"{PROPERTIES}several/##name", "Leg")
+    assert names() == ["Leg 1", "Leg 2", "Leg 3"]
+    hands.type_value(f"{PROPERTIES}several/##shapes[2].color/##X", 0.25)
+    assert [shape.color[0] for shape in session.scene.shapes] == [0.25] * 3
+    assert session.history.labels[steps:] == ["Rename", "Colour"]
+    hands.shoot("several")
+    hands.ctx.item_click(f"{OUTLINER}shape 1/###name", imgui.MouseButton_.right)
+    hands.click("//$FOCUSED/Rename")
+    hands.ctx.key_chars_replace_enter("Foot")
+    hands.settle()
+    assert names() == ["Foot 1", "Foot 2", "Foot 3"]
+    for _ in range(3):
+        hands.keys(CTRL | Key.z)
+    assert session.scene == before
+
+
 def the_viewport(hands: Hands) -> None:
     """Orbit, pan, zoom, standard views, framing, and a click that selects."""
     session, ctx = hands.session, hands.ctx

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from hqmodel.edit import EditError, add_shape, duplicate_shape, move_shape, new_shape, remove_shapes
+from hqmodel.edit import EditError, add_shape, duplicate_shape, move_shape, new_shape, remove_shapes, rename_shapes
 from hqmodel.model import MAX_SHAPES, Scene
 
 SCENE = Scene(shapes=(new_shape("ball"), new_shape("block"), new_shape("cylinder")), name="three")
@@ -30,6 +30,15 @@ def test_a_copy_follows_its_original() -> None:
     scene = duplicate_shape(SCENE, 1)
     assert names(scene) == ["Ball", "Block", "Block 2", "Cylinder"]
     assert scene.shapes[2].strips == scene.shapes[1].strips
+
+
+def test_several_shapes_are_named_and_numbered_in_their_order() -> None:
+    scene = Scene(shapes=tuple(new_shape("ball").changed(name=name) for name in ("A", "Leg 2", "B", "C")))
+    assert names(rename_shapes(scene, [3, 0, 2], "Leg")) == ["Leg 1", "Leg 2", "Leg 3", "Leg 4"]
+    assert names(rename_shapes(scene, [2], "Leg")) == ["A", "Leg 2", "Leg", "C"]
+    assert names(rename_shapes(scene, [0, 3], "")) == ["", "Leg 2", "B", ""]
+    with pytest.raises(EditError, match=r"^shapes\[4\]"):
+        rename_shapes(scene, [0, 4], "Leg")
 
 
 @pytest.mark.parametrize(("index", "to", "expected"), [(0, 2, "BCA"), (2, 0, "CAB"), (1, 1, "ABC"), (0, 1, "BAC")])

@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable
+
 from hqmodel.model import Shape, Strip
 
 
 def shape_name(shape: Shape, index: int) -> str:
     return shape.name or f"Shape {index + 1}"
+
+
+def shared_name(shapes: Iterable[Shape]) -> str:
+    """What these are called but for a number at the end; empty where they differ in more than that."""
+    stems = {re.sub(r" \d+$", "", shape.name) for shape in shapes}
+    return stems.pop() if len(stems) == 1 else ""
 
 
 def strip_name(strip: Strip, index: int) -> str:

@@ -109,7 +109,7 @@ def _shape(session: Session, tree: Tree, index: int) -> list[Intent]:
     imgui.same_line()
     imgui.color_button("color", (*shape.color, 1.0), imgui.ColorEditFlags_.no_tooltip | imgui.ColorEditFlags_.no_drag_drop)
     imgui.same_line()
-    intents = _renamed(tree, index, shape) if tree.renaming == index else _name(session, tree, index, shape)
+    intents = _renamed(session, tree, index) if tree.renaming == index else _name(session, tree, index, shape)
     intents += _eye(index, shape)
     imgui.pop_id()
     return intents
@@ -154,8 +154,8 @@ def _rename(tree: Tree, index: int, shape: Shape) -> None:
     tree.renaming, tree.text, tree.fresh = index, shape.name, True
 
 
-def _renamed(tree: Tree, index: int, shape: Shape) -> list[Intent]:
-    """The name being typed: Enter or a click elsewhere takes it, Esc leaves the old one."""
+def _renamed(session: Session, tree: Tree, index: int) -> list[Intent]:
+    """The name being typed, for all shapes if several are selected: Enter or a click elsewhere takes it, Esc leaves the old one."""
     if tree.fresh:
         imgui.set_keyboard_focus_here()
         tree.fresh = False
@@ -165,9 +165,10 @@ def _renamed(tree: Tree, index: int, shape: Shape) -> list[Intent]:
     if not (entered or imgui.is_item_deactivated()):
         return []
     tree.renaming = None
-    if imgui.is_key_pressed(imgui.Key.escape) or tree.text == shape.name:
+    if imgui.is_key_pressed(imgui.Key.escape) or tree.text == session.scene.shapes[index].name:
         return []
-    return [Put(("shapes", index, "name"), tree.text, "Rename")]
+    chosen = session.selection.shapes if index in session.selection.shapes else (index,)
+    return [Edit("Rename", partial(edit.rename_shapes, indices=chosen, name=tree.text))]
 
 
 def _dragged(index: int, shape: Shape) -> list[Intent]:

@@ -10,10 +10,10 @@ from hqmodel import edit
 from hqmodel.model import FIELDS, Shape, Strip
 
 from ..form import Form, Memory
-from ..intents import Do, Edit, Intent, Put, Select
+from ..intents import Do, Edit, Grab, Intent, Put, Select, Show
 from ..session import Session
 from . import frame
-from .naming import shape_name, strip_label, strip_name
+from .naming import shape_name, shared_name, strip_label, strip_name
 
 _SIGNS = {"Closed (+)": 1, "Hyperbolic (-)": -1}
 _ALONE = "No group"
@@ -28,10 +28,29 @@ def draw(session: Session, memory: Memory) -> list[Intent]:
     form = Form(session.scene, memory)
     shape = session.scene.shapes[index]
     if session.selection.strip is None:
+        if len(session.selection.shapes) > 1:
+            _several(form, session.selection.shapes)
+            imgui.separator_text(shape_name(shape, index))
         _shape(form, index, shape)
     else:
         _strip(form, index, session.selection.strip, shape)
     return form.intents
+
+
+def _several(form: Form, indices: tuple[int, ...]) -> None:
+    """What can be set of all selected shapes at once."""
+    imgui.push_id("several")
+    imgui.text_disabled(f"All {len(indices)} selected")
+    form.label("Name", "Each is called by it, with a number.")
+    imgui.set_next_item_width(-1)
+    name = shared_name(form.scene.shapes[index] for index in indices)
+    changed, name = imgui.input_text_with_hint("##name", "varied", name)
+    if imgui.is_item_activated():
+        form.intents.append(Grab(("shapes", "name"), "Rename"))
+    if changed:
+        form.intents.append(Show(edit.rename_shapes(form.scene, indices, name)))
+    form.color(*[("shapes", index, "color") for index in reversed(indices)])
+    imgui.pop_id()
 
 
 def _shape(form: Form, index: int, shape: Shape) -> None:
