@@ -155,7 +155,7 @@ def _rename(tree: Tree, index: int, shape: Shape) -> None:
 
 
 def _renamed(session: Session, tree: Tree, index: int) -> list[Intent]:
-    """The name being typed, for all shapes if several are selected: Enter or a click elsewhere takes it, Esc leaves the old one."""
+    """The name being typed, for all shapes if several are selected: Enter or a click elsewhere takes it, Esc does not."""
     if tree.fresh:
         imgui.set_keyboard_focus_here()
         tree.fresh = False
