@@ -33,6 +33,7 @@ class ExportJob(Job[Exported]):
         if settings.method == "radial":
             body = mesh.radial_quads(self._scene, settings.resolution, self._meshing)
         else:
+            mesh.must_have_room(self._scene, settings.resolution, settings.target_faces is not None)
             body = mesh.polygonize(self._scene, settings.resolution, self._meshing, target_faces=settings.target_faces)
         report = mesh.report(body, lambda: self._report(0.9, "Measuring"))
         fitted = mesh.fitted(body, suffix, unit=settings.unit, size=settings.size, up=settings.up)

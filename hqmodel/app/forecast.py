@@ -11,8 +11,6 @@ from hqmodel.model import Scene
 
 from .asks import ExportSettings
 
-# Cells along the longest side of the coarse mesh.
-COARSE = 48
 Kind = tuple[str, bool, bool]
 
 
@@ -34,7 +32,7 @@ class Forecast:
         self._busy: threading.Thread | None = None
 
     def told(self, settings: ExportSettings) -> str:
-        """About how many triangles, how large a file, how true; empty as long as that is not known."""
+        """About how many triangles, how large a file, how true; or why it can't be; empty as long as that is not known."""
         kind = settings.path.suffix.lower(), settings.colors, settings.normals
         if kind not in self._known:
             if self._busy is None or not self._busy.is_alive():
@@ -54,7 +52,7 @@ class Forecast:
 
         suffix, colors, normals = kind
         try:
-            body = mesh.polygonize(self._scene, COARSE)
+            body = mesh.polygonize(self._scene, mesh.COARSE)
             longest = float((body.vertices.max(axis=0) - body.vertices.min(axis=0)).max())
             shaded = replace(body, colors=body.colors if colors else None, normals=body.normals if normals else None)
             stream = BytesIO()
@@ -67,13 +65,15 @@ class Forecast:
 
 
 def _told(coarse: Coarse, settings: ExportSettings) -> str:
-    """Triangles go with the square of the resolution, and so does a smooth surface's error."""
-    finer = settings.resolution / COARSE
-    every = coarse.faces * finer**2
+    """A smooth surface's error goes with the size of its triangles."""
+    from hqmodel import mesh
+
+    every = mesh.expected_faces(coarse.faces, settings.resolution)
     faces = min(every, settings.target_faces or every)
     size = coarse.size / coarse.faces * faces
     error = coarse.error * coarse.faces / faces
-    return f"about {_short(faces)} triangles, {_short(size)}B, within {error:.2g} of the longest side"
+    lack = mesh.lack_of_room(coarse.faces, settings.resolution, settings.target_faces is not None)
+    return lack or f"about {_short(faces)} triangles, {_short(size)}B, within {error:.2g} of the longest side"
 
 
 def _short(number: float) -> str:

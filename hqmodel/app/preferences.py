@@ -10,6 +10,9 @@ THEMES = ("dark", "light")
 # Of everything in the window, in hundredths of its usual size.
 SIZES = (80, 90, 100, 110, 125, 150, 175, 200)
 
+# The grid's, in world units.
+STEPS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.25, 0.5, 1.0)
+
 
 @dataclass(frozen=True)
 class Preferences:
@@ -32,6 +35,17 @@ class Preferences:
     def refining(self) -> bool:
         """Whether the picture gets better while nothing happens; a slow machine may do without."""
         return self.settings.preferences.get("refining") is not False
+
+    @property
+    def grid(self) -> bool:
+        """Whether the grid is shown; it is there without, too, and is snapped to."""
+        return self.settings.preferences.get("grid") is True
+
+    @property
+    def grid_step(self) -> float | None:
+        """The grid's step; None for one that fits how large things are seen."""
+        chosen = self.settings.preferences.get("grid_step")
+        return chosen if chosen in STEPS else None
 
     @property
     def frame_time(self) -> bool:

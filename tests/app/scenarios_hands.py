@@ -158,9 +158,10 @@ def a_face_is_pushed(hands: Hands) -> None:
     drag(hands, (0, 8), release=False)
     hands.ctx.key_down(Key.mod_ctrl)
     move(hands, (0, 23))
-    step = aim(hands).step((0.2, -1.0, 0.1))
-    moved = -1 - planes(session.scene, 1)[1]
-    assert abs(moved / step - round(moved / step)) < 1e-6
+    step = aim(hands).step
+    at = planes(session.scene, 1)[1]
+    assert at < -1
+    assert abs(at / step - round(at / step)) < 1e-6
     hands.ctx.key_up(Key.mod_ctrl)
     hands.keys(Key.escape)
     hands.ctx.mouse_up()

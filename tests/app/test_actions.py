@@ -127,11 +127,20 @@ def test_framing_shows_what_is_selected_hidden_or_not(session: Session) -> None:
 
 
 def test_modes_and_themes_are_checked_one_at_a_time(session: Session) -> None:
-    session.apply([Do("mode depth"), Do("theme light")])
-    for prefix, chosen in (("mode", "depth"), ("theme", "light")):
+    session.apply([Do("mode depth"), Do("theme light"), Do("grid 0.25")])
+    for prefix, chosen in (("mode", "depth"), ("theme", "light"), ("grid", "0.25")):
         actions = {name: action for name, action in ACTIONS.items() if name.startswith(f"{prefix} ")}
         assert [name for name, action in actions.items() if action.checked and action.checked(session)] == [f"{prefix} {chosen}"]
     assert files.Settings.read().preferences["theme"] == "light"
+
+
+def test_the_grid_is_shown_and_its_step_chosen(session: Session) -> None:
+    assert (session.preferences.grid, session.preferences.grid_step) == (False, None)
+    session.apply([Do("grid"), Do("grid 0.5")])
+    kept = Session(files.Settings.read()).preferences
+    assert (kept.grid, kept.grid_step) == (True, 0.5)
+    session.apply([Do("grid auto")])
+    assert session.preferences.grid_step is None
 
 
 def test_an_unknown_theme_in_the_settings_is_the_first_one() -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from hqmodel.field import Plane, region
 from hqmodel.model import VIEWS
 
-from ..preferences import SIZES, THEMES
+from ..preferences import SIZES, STEPS, THEMES
 from ..tools.arranging import AXES
 from ..view import MODES
 from .action import Action, always
@@ -74,6 +74,18 @@ def _switch_frame_time(session: Session) -> None:
     session.keep(session.settings.preferring(frame_time=not session.preferences.frame_time))
 
 
+def _switch_grid(session: Session) -> None:
+    session.keep(session.settings.preferring(grid=not session.preferences.grid))
+
+
+def _in_step(step: float | None, session: Session) -> bool:
+    return session.preferences.grid_step == step
+
+
+def _set_step(step: float | None, session: Session) -> None:
+    session.keep(session.settings.preferring(grid_step=step))
+
+
 def _frame_all(session: Session) -> None:
     session.frame(session.region)
 
@@ -129,6 +141,12 @@ LOOKS: dict[str, Action] = {
     },
     "ghosts": Action("Carving Shapes as Ghosts", _switch_ghosts, (), always, lambda s: s.view.ghosts),
     "bands": Action("Bands", _switch_bands, (), _flat, lambda s: s.view.bands),
+    "grid": Action("Grid Lines", _switch_grid, (), always, lambda s: s.preferences.grid),
+    "grid auto": Action("Step That Fits", partial(_set_step, None), (), always, partial(_in_step, None)),
+    **{
+        f"grid {step:g}": Action(f"Step {step:g}", partial(_set_step, step), (), always, partial(_in_step, step))
+        for step in STEPS
+    },
     "frame time": Action("Frame Time", _switch_frame_time, (), always, lambda s: s.preferences.frame_time),
     "refine": Action("Refine at Rest", _switch_refining, (), always, lambda s: s.preferences.refining),
     "frame all": Action("Frame All", _frame_all, ("Home",)),

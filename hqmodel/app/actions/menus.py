@@ -5,7 +5,7 @@ from __future__ import annotations
 from hqmodel import edit
 from hqmodel.model import VIEWS
 
-from ..preferences import SIZES, THEMES
+from ..preferences import SIZES, STEPS, THEMES
 from ..tools.arranging import AXES
 from ..tools.kit import TOOLS
 from ..tools.reach import MODAL
@@ -52,6 +52,7 @@ MENUS: dict[str, tuple[Entry, ...]] = {
         *(f"mode {mode}" for mode in MODES),
         None,
         ("Section", tuple(f"section {axis}" for axis in AXES)),
+        ("Grid", ("grid", "grid auto", *(f"grid {step:g}" for step in STEPS))),
         "ghosts",
         "bands",
         "cloud",

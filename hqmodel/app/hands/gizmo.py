@@ -16,7 +16,7 @@ from hqmodel.model import Camera, Scene, vector
 from ..intents import Grab, Intent, Look, Release, Show
 from ..session import Session
 from ..tools.aim import Aim
-from ..tools.arranging import SCALE_STEP, TURN_STEP
+from ..tools.arranging import SCALE_STEP, TURN_STEP, Move
 from ..tools.reach import pivot
 
 guizmo = imguizmo.im_guizmo
@@ -26,6 +26,8 @@ _OPERATIONS = {
     "turn": guizmo.OPERATION.rotate,
     "scale": guizmo.OPERATION.scale,
 }
+# What ImGuizmo itself snaps to; moves go onto the grid.
+_STEPS = {"turn": TURN_STEP, "scale": SCALE_STEP}
 _LABELS = {"move": "Move", "turn": "Turn", "scale": "Scale"}
 # The cube's side in heights of the font, and its distance from the corner.
 _CUBE, _INSET = 5.5, 0.4
@@ -61,7 +63,7 @@ class Gizmo:
         start = np.eye(4)
         start[:3, 3] = pivot(session.scene, chosen) if self.before is None else self.pivot
         matrix = _matrix16(start if self.matrix is None else self.matrix)
-        snap = guizmo.Matrix3([self._step(tool, aim, start[:3, 3])] * 3) if imgui.get_io().key_ctrl else None
+        snap = guizmo.Matrix3([_STEPS[tool]] * 3) if imgui.get_io().key_ctrl and tool in _STEPS else None
         guizmo.manipulate(view, projection, _OPERATIONS[tool], guizmo.MODE.world, matrix, None, snap)
         if not guizmo.is_using():
             ended, self.before, self.matrix = self.before is not None, None, None
@@ -71,14 +73,15 @@ class Gizmo:
         if self.before is None:
             self.before, self.pivot = session.scene, vector(start[:3, 3])
             intents.append(Grab((), _LABELS[tool]))
-        return [*intents, Show(self._arranged(self.before, tool, chosen))]
+        return [*intents, Show(self._arranged(self.before, tool, chosen, aim))]
 
-    def _arranged(self, before: Scene, tool: str, chosen: tuple[int, ...]) -> Scene:
+    def _arranged(self, before: Scene, tool: str, chosen: tuple[int, ...], aim: Aim) -> Scene:
         """The scene that the matrix stands for."""
         assert self.matrix is not None
         linear = self.matrix[:3, :3]
         if tool == "move":
-            return edit.move_shapes(before, chosen, self.matrix[:3, 3] - self.pivot)
+            move, by = Move(before, aim, chosen, self.pivot, (0.0, 0.0)), vector(self.matrix[:3, 3] - self.pivot)
+            return move.scene(move.snapped(by) if imgui.get_io().key_ctrl else by)
         if tool == "turn":
             x, y, z, w = Rotation.from_matrix(linear / np.linalg.norm(linear, axis=0)).as_quat()
             return edit.turn_shapes(before, chosen, (float(x), float(y), float(z), float(w)), self.pivot)
@@ -87,9 +90,6 @@ class Gizmo:
             if factor != 1.0:
                 before = edit.stretch_shapes(before, chosen, axis, float(factor), self.pivot)
         return before
-
-    def _step(self, tool: str, aim: Aim, at: Array) -> float:
-        return {"move": aim.step(at), "turn": TURN_STEP, "scale": SCALE_STEP}[tool]
 
 
 def cube(session: Session, aim: Aim, corner: imgui.ImVec2) -> list[Intent]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from imgui_bundle import imgui
 
-from ..hands import bands, cloud, gizmo, legend, overlay, toolbar
+from ..hands import bands, cloud, gizmo, grid, legend, overlay, toolbar
 from ..hands.hand import Hand, Picture, free
 from ..hands.holding import holding
 from ..intents import Intent, Resize
@@ -23,7 +23,7 @@ def draw(session: Session, hand: Hand, picture: Picture) -> list[Intent]:
     imgui.image(imgui.ImTextureRef(picture.draw(size)), points, (0, 1), (1, 0))
     imgui.set_cursor_screen_pos(corner)
     intents: list[Intent] = [] if size == session.size else [Resize(size)]
-    aim = Aim(session.view.camera, points)
+    aim = Aim(session.view.camera, points, session.preferences.grid_step)
     if not hand.gizmo.busy or hand.button is not None:  # ImGuizmo takes no click that an item could take
         imgui.invisible_button("view", points, _ANY | imgui.ButtonFlags_.allow_overlap)
         imgui.set_item_key_owner(imgui.Key.mouse_wheel_y)
@@ -32,20 +32,23 @@ def draw(session: Session, hand: Hand, picture: Picture) -> list[Intent]:
     pen = overlay.Pen(corner, points)
     if session.cloud is not None and not session.cloud_hidden:
         cloud.draw(pen, aim, session.cloud)
+    grid.draw(session, aim, pen)
     bands.draw(session, aim, pen)
     overlay.draw(session, hand, aim, pen)
     if session.view.mode == "curvature":
         legend.scale(pen, picture.legend, points)
     intents += hand.gizmo.draw(session, aim, corner) + gizmo.cube(session, aim, corner)
     intents += toolbar.draw(session, corner) + legend.section(session, corner, points)
-    _caption(session, corner)
+    _caption(session, aim, corner)
     return intents
 
 
-def _caption(session: Session, corner: imgui.ImVec2) -> None:
+def _caption(session: Session, aim: Aim, corner: imgui.ImVec2) -> None:
     """What is shown, in the corner."""
     view = session.view
     text = f"{view.mode.capitalize()}   {'Orthographic' if view.camera.orthographic else 'Perspective'}"
+    if grid.shown(session):
+        text += f"   Grid {aim.step:g}"
     inset = imgui.get_font_size() * 0.6
     for shift, color in ((1.0, (0.0, 0.0, 0.0, 0.6)), (0.0, (1.0, 1.0, 1.0, 0.85))):
         at = corner.x + inset + shift, corner.y + inset + shift

@@ -21,10 +21,14 @@ _STEP_PIXELS = 12.0
 
 @dataclass(frozen=True)
 class Aim:
-    """The camera and the viewport's size (width, height), in the units that the pointer moves in; pixels from the top left."""
+    """The camera and the viewport's size (width, height), in the units that the pointer moves in; pixels from the top left.
+
+    `grid` is the step of the grid to snap to, None for one that fits how large things are seen.
+    """
 
     camera: Camera
     size: tuple[int, int]
+    grid: float | None = None
 
     def per_pixel(self, point: ArrayLike) -> float:
         """World units that one pixel is wide at the depth of a world point (3,)."""
@@ -78,9 +82,12 @@ class Aim:
         before = max(hypot(start[0] - x, start[1] - y), 8.0)
         return max(hypot(start[0] + moved[0] - x, start[1] + moved[1] - y) / before, 1e-3)
 
-    def step(self, point: ArrayLike) -> float:
-        """A length to snap to at a world point: 1, 2 or 5 times a power of ten, easily aimed at from here."""
-        width = self.per_pixel(point) * _STEP_PIXELS
+    @property
+    def step(self) -> float:
+        """The grid's step: as it was chosen, else 1, 2 or 5 times a power of ten, easily aimed at from here."""
+        if self.grid is not None:
+            return self.grid
+        width = self.per_pixel(self.camera.target) * _STEP_PIXELS
         decade = 10.0 ** floor(log10(width))
         return decade * next(k for k in (1, 2, 5, 10) if k * decade >= width)
 

@@ -11,7 +11,7 @@ from hqmodel import edit
 from hqmodel.model import Scene, Vector, vector
 
 from .aim import Pixels
-from .gesture import Gesture, Values, rounded
+from .gesture import Gesture, Values, onto_grid, rounded
 
 AXES: dict[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 TURN_STEP, SCALE_STEP = 15.0, 0.1
@@ -46,7 +46,9 @@ class Move(Arrange):
         return vector(self.aim.across(self.pivot, moved))
 
     def snapped(self, values: Values) -> Values:
-        return rounded(values, self.aim.step(self.pivot))
+        """Where the active shape's own origin lies on the grid."""
+        at = self.before.shapes[self.shapes[-1]].transform.translation
+        return onto_grid(values, (at["xyz".index(self.axis)],) if self.axis else at, self.aim.step)
 
     def scene(self, values: Values) -> Scene:
         by = np.array(AXES[self.axis]) * values[0] if self.axis else np.array(values)

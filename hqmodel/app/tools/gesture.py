@@ -16,6 +16,9 @@ from .aim import Aim, Pixels
 
 Values = tuple[float, ...]
 
+# A motion of less than this share of a step is none.
+_STILL = 1e-3
+
 
 @dataclass(frozen=True)
 class Gesture(ABC):
@@ -86,3 +89,9 @@ class Held:
 def rounded(values: Values, step: float) -> Values:
     """Each to the nearest multiple of the step."""
     return tuple(round(value / step) * step for value in values)
+
+
+def onto_grid(values: Values, start: Values, step: float) -> Values:
+    """Each so that what moves by it, from `start` on, ends at a multiple of the step; what doesn't move stays where it is."""
+    moves = zip(values, start, strict=True)
+    return tuple(round((at + by) / step) * step - at if abs(by) > _STILL * step else by for by, at in moves)

@@ -13,7 +13,7 @@ from hqmodel.field import Region, rotation_matrix
 from hqmodel.model import FIELDS, Scene, Vector
 
 from .aim import Array, Pixels
-from .gesture import Gesture, Values, rounded
+from .gesture import Gesture, Values, onto_grid, rounded
 from .grip import Grip
 
 Way = Literal["one", "both", "slide"]
@@ -37,7 +37,9 @@ class Push(Gesture):
         return (self.aim.along(self.grip.point, self.grip.face(self.before).normal, moved),)
 
     def snapped(self, values: Values) -> Values:
-        return rounded(values, self.aim.step(self.grip.point))
+        """Where the plane is a multiple of the grid's step away from the world's origin."""
+        face = self.grip.face(self.before)
+        return onto_grid(values, (float(face.normal @ face.middle),), self.aim.step)
 
     def scene(self, values: Values) -> Scene:
         grip, (distance,) = self.grip, values
@@ -144,7 +146,7 @@ class Pat(Gesture):
         return (max(0.0, -self.aim.along(self.point, self.normal, moved)),)
 
     def snapped(self, values: Values) -> Values:
-        return rounded(values, self.aim.step(self.point))
+        return rounded(values, self.aim.step)
 
     def scene(self, values: Values) -> Scene:
         if values[0] <= 0:

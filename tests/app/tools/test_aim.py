@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import hypot
 
 import numpy as np
@@ -63,7 +64,8 @@ def test_end_on_up_is_forwards() -> None:
 
 @given(aims)
 def test_steps_are_round_and_of_a_size_to_aim_at(aim: Aim) -> None:
-    step = aim.step(aim.camera.target)
+    step = aim.step
     mantissa = step / 10 ** np.floor(np.log10(step) + 1e-9)
     assert min(abs(mantissa - k) for k in (1, 2, 5)) < 1e-6
+    assert replace(aim, grid=0.3).step == 0.3
     assert 10 < step / aim.per_pixel(aim.camera.target) < 32

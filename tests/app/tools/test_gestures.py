@@ -16,7 +16,7 @@ from hqmodel.app.tools.gesture import Gesture, Held
 from hqmodel.app.tools.grip import Grip, grip_at, outward
 from hqmodel.app.tools.handles import handles
 from hqmodel.app.tools.kit import Kit
-from hqmodel.app.tools.sculpting import Chop, Harden, Pat, Push, Soften, Tilt
+from hqmodel.app.tools.sculpting import Chop, Harden, Pat, Push, Soften, Tilt, Way
 from hqmodel.field import Terms, value, world_planes
 from hqmodel.model import Camera, Scene
 
@@ -142,6 +142,40 @@ def test_arranging_along_an_axis(kind: type[Move] | type[Turn] | type[Scale]) ->
     assert transform.translation == ((0, 0, 2) if kind is Move else (0, 0, 0))
     assert edit.angles(transform.rotation) == pytest.approx((0, 0, 2 if kind is Turn else 0))
     assert transform.scale == ((1, 1, 2) if kind is Scale else (1, 1, 1))
+
+
+def test_a_snapped_move_brings_the_origin_onto_the_grid() -> None:
+    aim = replace(AIM, grid=0.25)
+    two = edit.move_shapes(edit.add_shape(BLOCK, edit.new_shape("ball")), [1], (0.13, -0.07, 0.31))
+    gesture = Move(two, aim, (0, 1), (0.0, 0.0, 0.0), (400.0, 300.0))
+    after = held(gesture, 40.0, -25.0, snap=True).scene
+    at, other = (np.array(after.shapes[index].transform.translation) for index in (1, 0))
+    assert np.allclose(at / 0.25, np.round(at / 0.25), atol=1e-9)
+    assert np.allclose(at - other, (0.13, -0.07, 0.31)), "the others keep their places beside it"
+    assert np.max(np.abs(other - gesture.measured((40.0, -25.0)))) <= 0.125 + 1e-9
+    locked = held(gesture.locked("x"), 100.0, 0.0, snap=True).scene.shapes[1].transform.translation
+    assert locked[0] / 0.25 == pytest.approx(round(locked[0] / 0.25))
+    assert locked[0] > 0.2
+    assert locked[1:] == (-0.07, 0.31)
+    assert held(gesture, 0.0, 0.0, snap=True).scene == two, "what is not moved stays"
+    front = replace(gesture, aim=Aim(Camera(azimuth=90.0, elevation=0.0), aim.size, 0.25))
+    assert held(front, 30.0, 30.0, snap=True).scene.shapes[1].transform.translation[0] == 0.13, "along the view nothing moves"
+
+
+@pytest.mark.parametrize("way", ["one", "both", "slide"])
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_a_snapped_push_brings_the_plane_onto_the_grid(way: Way, mirrored: bool) -> None:
+    aim = replace(AIM, grid=0.2)
+    scene = edit.turn_shapes(edit.move_shapes(BLOCK, [0], (0.93, 0.07, 0)), [0], edit.about((0, 0, 1), 20), (0.93, 0.07, 0))
+    scene = edit.put(scene, "mirror", ["x"]) if mirrored else scene
+    image = (-1.0, 1.0, 1.0) if mirrored else (1.0, 1.0, 1.0)
+    grip = replace(Grip(0, 0, 1, (0.0, 0.0, 0.0)), image=image)
+    grip = replace(grip, point=tuple(grip.face(scene).middle))
+    pushed = held(Push(scene, aim, grip, way), 80.0 if not mirrored else -80.0, 0.0, snap=True)
+    face = grip.face(pushed.scene)
+    distance = float(face.normal @ face.middle) / 0.2
+    assert distance == pytest.approx(round(distance), abs=1e-9)
+    assert pushed.values[0] > 0.2
 
 
 def test_keys_need_a_selection_and_turn_about_its_middle() -> None:
