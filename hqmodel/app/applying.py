@@ -51,8 +51,8 @@ def carry_out(session: Session, intent: Intent) -> None:
         _see(session, intent)
         return
     match intent:
-        case Select(shape, strip, add):
-            session.selection = session.selection.picked(shape, strip, add)
+        case Select(shape, strip, add, image):
+            session.selection = session.selection.picked(shape, strip, add, image)
         case Choose(shapes, add):
             session.selection = session.selection.chosen(shapes, add)
         case Pick(animation):

@@ -6,9 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from hqmodel.edit.animation import Animation
-from hqmodel.model import Camera, Scene
+from hqmodel.model import Camera, Scene, Vector
 
 from .asks import Departure, Dialog
+from .selection import ITSELF
 from .tools.gesture import Gesture, Held
 from .tools.kit import Kit
 from .view import View
@@ -97,11 +98,12 @@ class Edit:
 
 @dataclass(frozen=True)
 class Select:
-    """A shape, or one strip of it; `add` keeps what was selected. No shape: nothing selected."""
+    """A shape, or one strip of it, in one of its mirror images; `add` keeps what was selected. No shape: nothing selected."""
 
     shape: int | None
     strip: int | None = None
     add: bool = False
+    image: Vector = ITSELF
 
 
 @dataclass(frozen=True)

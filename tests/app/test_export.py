@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 import trimesh
 
-from hqmodel import files, mesh
+from hqmodel import files, memory, mesh
 from hqmodel.app import working
 from hqmodel.app.asks import ChooseFile, ExportAs, Exported, ExportSettings, Problem
 from hqmodel.app.export import ExportJob
@@ -103,9 +103,13 @@ def test_quitting_stops_it(session: Session, tmp_path: Path) -> None:
     [
         (ExportSettings(Path("no such folder/ball.obj"), resolution=12), "No such file or directory"),
         (ExportSettings(Path("ball.obj"), resolution=2), "resolution"),
+        (ExportSettings(Path("ball.obj"), resolution=2048), "of memory that are free"),
     ],
 )
-def test_what_goes_wrong_is_told(session: Session, tmp_path: Path, settings: ExportSettings, said: str) -> None:
+def test_what_goes_wrong_is_told(
+    session: Session, tmp_path: Path, settings: ExportSettings, said: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(memory, "available", lambda: 5e8)
     moved = ExportSettings(tmp_path / settings.path, settings.resolution)
     working.export(session, moved)
     ended(session)

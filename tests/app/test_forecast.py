@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from hqmodel import mesh
+from hqmodel import memory, mesh
 from hqmodel.app.asks import ExportSettings
 from hqmodel.app.forecast import Forecast
 from hqmodel.edit import new_scene
@@ -43,6 +43,15 @@ def test_a_reduced_mesh_has_what_it_is_reduced_to(tmp_path: Path) -> None:
     forecast.told(settings)
     forecast.wait()
     assert numbers(forecast.told(settings))[0] == 2000
+
+
+def test_what_finds_no_room_in_memory_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    forecast = Forecast(new_scene())
+    settings = ExportSettings(tmp_path / "ball.ply", resolution=1024)
+    forecast.told(settings)
+    forecast.wait()
+    monkeypatch.setattr(memory, "available", lambda: 1e9)
+    assert forecast.told(settings).startswith("resolution: expected at most ")
 
 
 def test_of_what_cannot_be_exported_nothing_is_told(tmp_path: Path) -> None:

@@ -117,10 +117,10 @@ def free(session: Session, hand: Hand, picture: Picture, aim: Aim, corner: imgui
 
 def known_handles(session: Session, aim: Aim) -> Handles | None:
     """The handles that are shown: those of the selected strip, with the tool for faces in hand."""
-    shape, strip = session.selection.active, session.selection.strip
+    shape, strip, image = session.selection.active, session.selection.strip, session.selection.image
     if session.kit.tool != "faces" or shape is None or strip is None:
         return None
-    return handles(session.scene, shape, strip, aim, session.preferences.percent / 100)
+    return handles(session.scene, shape, strip, aim, session.preferences.percent / 100, image)
 
 
 def _pressed(session: Session, hand: Hand, aim: Aim) -> list[Intent]:
@@ -161,7 +161,9 @@ def _let_go(session: Session, hand: Hand, aim: Aim, travelled: Pixels) -> list[I
     if button != "left" or moved:
         return []
     grip = hand.grip(session.scene)
-    return [Select(None if grip is None else grip.shape, grip.strip if grip and session.kit.tool in TOUCHING else None, add)]
+    if grip is None:
+        return [Select(None, add=add)]
+    return [Select(grip.shape, grip.strip if session.kit.tool in TOUCHING else None, add, grip.image)]
 
 
 def _pointer(hand: Hand) -> Pointer:

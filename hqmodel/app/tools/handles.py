@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from hqmodel.field import Face
-from hqmodel.model import Scene, vector
+from hqmodel.model import Scene, Vector, vector
 
 from .aim import Aim, Array, Pixels
 from .gesture import Gesture
@@ -65,13 +65,18 @@ class Handles:
         return best, float(distances[best])
 
 
-def handles(scene: Scene, shape: int, strip: int, aim: Aim, scale: float = 1.0) -> Handles | None:
-    """The handles of a strip, on that of its planes which faces the camera and bounds the shape; None behind the eye."""
+def handles(
+    scene: Scene, shape: int, strip: int, aim: Aim, scale: float = 1.0, image: Vector = (1.0, 1.0, 1.0)
+) -> Handles | None:
+    """The handles of a strip, on that of its planes which faces the camera and bounds the shape; None behind the eye.
+
+    In the shape's mirror image of these signs.
+    """
     back = aim.camera.axes()[2]
-    faces = {side: Grip(shape, strip, side, (0.0, 0.0, 0.0)).face(scene) for side in (1, -1)}
+    faces = {side: Grip(shape, strip, side, (0.0, 0.0, 0.0), image).face(scene) for side in (1, -1)}
     side = max(faces, key=lambda side: (len(faces[side].polygon) > 0, float(faces[side].normal @ back)))
     face = faces[side]
-    grip = Grip(shape, strip, side, vector(face.middle))
+    grip = Grip(shape, strip, side, vector(face.middle), image)
     width = scale * aim.per_pixel(face.middle)
     across = np.cross(face.normal, np.eye(3)[int(np.argmin(np.abs(face.normal)))])
     across /= np.linalg.norm(across)

@@ -14,7 +14,7 @@ from hqmodel.app.tools.aim import Aim
 from hqmodel.app.tools.arranging import Move, Scale, Turn
 from hqmodel.app.tools.gesture import Gesture, Held
 from hqmodel.app.tools.grip import Grip, grip_at, outward
-from hqmodel.app.tools.handles import handles
+from hqmodel.app.tools.handles import Part, handles
 from hqmodel.app.tools.kit import Kit
 from hqmodel.app.tools.sculpting import Chop, Harden, Pat, Push, Soften, Tilt, Way
 from hqmodel.field import Terms, value, world_planes
@@ -24,6 +24,7 @@ AIM = Aim(Camera(distance=7.0, azimuth=25.0, elevation=25.0), (800, 600))
 BLOCK = Scene(shapes=(edit.new_shape("block"),))
 FRONT = (0.2, -1.0, 0.1)
 NOTHING = Selection()
+IMAGE = (-1.0, 1.0, 1.0)
 
 
 def held(gesture: Gesture | None, *moved: float, snap: bool = False, typed: str = "") -> Held:
@@ -133,6 +134,27 @@ def test_the_arm_that_is_pulled_out_comes_out() -> None:
         assert normals[1] @ arm + offsets[1] > -1
 
 
+@pytest.mark.parametrize("part", ["push", "tilt", "exponent"])
+def test_handles_of_a_mirror_image_do_the_same_mirrored(part: Part) -> None:
+    scene = edit.turn_shapes(edit.move_shapes(BLOCK, [0], (3, 0, 0)), [0], edit.about((0, 0, 1), 20), (3, 0, 0))
+    scene = edit.put(scene, "mirror", ["x"])
+    aim = Aim(Camera(distance=9.0, azimuth=0.0, elevation=20.0), (800, 600))  # the mirror's plane in the picture's middle
+    own, other = (handles(scene, 0, 1, aim, image=image) for image in ((1.0, 1.0, 1.0), IMAGE))
+    assert own is not None
+    assert other is not None
+    assert np.allclose(other.face.middle, own.face.middle * IMAGE)
+    assert np.allclose(other.middle, (800 - own.middle[0], own.middle[1]))
+    after = []
+    for known, to_the_right in ((own, 1.0), (other, -1.0)):
+        spot = known.arrow[1] if part == "push" else known.ring[np.argmin(known.ring[:, 1])]
+        gesture = known.taken(part, scene, aim, (float(spot[0]), float(spot[1])), "one")
+        after.append(held(gesture, 12.0 * to_the_right if part != "exponent" else 12.0, 30.0).scene)
+    assert after[0] != scene
+    for one, mirrored in zip(after[0].shapes[0].strips, after[1].shapes[0].strips, strict=True):
+        for name in ("normal", "half_width", "offset", "gamma"):
+            assert getattr(one, name) == pytest.approx(getattr(mirrored, name), abs=1e-9)
+
+
 @pytest.mark.parametrize("kind", [Move, Turn, Scale])
 def test_arranging_along_an_axis(kind: type[Move] | type[Turn] | type[Scale]) -> None:
     gesture = kind(BLOCK, AIM, (0,), (0.0, 0.0, 0.0), (450.0, 300.0)).locked("z")
@@ -168,8 +190,7 @@ def test_a_snapped_push_brings_the_plane_onto_the_grid(way: Way, mirrored: bool)
     aim = replace(AIM, grid=0.2)
     scene = edit.turn_shapes(edit.move_shapes(BLOCK, [0], (0.93, 0.07, 0)), [0], edit.about((0, 0, 1), 20), (0.93, 0.07, 0))
     scene = edit.put(scene, "mirror", ["x"]) if mirrored else scene
-    image = (-1.0, 1.0, 1.0) if mirrored else (1.0, 1.0, 1.0)
-    grip = replace(Grip(0, 0, 1, (0.0, 0.0, 0.0)), image=image)
+    grip = Grip(0, 0, 1, (0.0, 0.0, 0.0), IMAGE if mirrored else (1.0, 1.0, 1.0))
     grip = replace(grip, point=tuple(grip.face(scene).middle))
     pushed = held(Push(scene, aim, grip, way), 80.0 if not mirrored else -80.0, 0.0, snap=True)
     face = grip.face(pushed.scene)
