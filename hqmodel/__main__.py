@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import signal
 import sys
-from pathlib import Path
 
 
 def main() -> None:
@@ -18,6 +17,8 @@ def main() -> None:
 def main_window() -> None:
     """Desktops', which open a file by naming it: what is wrong with it is told in the window."""
     _load()
+    from pathlib import Path
+
     from hqmodel.cli import open_window
 
     sys.exit(open_window(Path(sys.argv[1]) if len(sys.argv) > 1 else None))

@@ -70,6 +70,8 @@ def export(
         raise Fault("--target-faces: expected --method cubes with it, got radial", USAGE)
     checked(output, mesh.FORMATS, [preset])
     try:
+        if method == "cubes":
+            mesh.must_have_room(scene, resolution, target_faces is not None)
         with progress(quiet) as report:
             made = (
                 mesh.radial_quads(scene, resolution, report)

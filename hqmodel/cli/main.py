@@ -67,9 +67,9 @@ for _module in (edit, export, render, animate, section, sample, raycast, fit, ne
 
 def run(arguments: Sequence[str]) -> int:
     """Carry out a command line, told in full on stdout and stderr; the exit status."""
-    command = typer.main.get_command(app)
 
     def invoke() -> None:
+        command = typer.main.get_command(app)
         with command.make_context("hqmodel", list(arguments)) as context:
             command.invoke(context)
 

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from math import sqrt
 from typing import Annotated
 
 import typer
 
+from hqmodel import memory
 from hqmodel.model import VIEWS, Camera, shown
 
 from .faults import USAGE, Fault
 
 LARGEST = 8192
+# Bytes that a picture wants at the most for each pixel, while it is drawn and written.
+_PIXEL = 40.0
 
 Size = Annotated[str, typer.Option("--size", metavar="WxH", help="Width and height in pixels.")]
 View = Annotated[
@@ -30,7 +34,13 @@ def pixels(size: str) -> tuple[int, int]:
     match = re.fullmatch(r"(\d{1,6})[xX](\d{1,6})", size.strip(), re.ASCII)
     if not match or not all(1 <= int(side) <= LARGEST for side in match.groups()):
         raise Fault(f"--size: expected WxH in pixels, each from 1 to {LARGEST}, got {shown(size)}", USAGE)
-    return int(match[1]), int(match[2])
+    width, height = int(match[1]), int(match[2])
+    free, needed = memory.available(), _PIXEL * width * height
+    if needed > free:
+        share = sqrt(free / needed)
+        told = f"expected at most {int(share * width)}x{int(share * height)} in the {memory.told(free)} of memory that are free"
+        raise Fault(f"--size: {told}, got {shown(size)}, which needs about {memory.told(needed)}")
+    return width, height
 
 
 def looking(camera: Camera, view: str | None, azimuth: float | None, elevation: float | None) -> Camera:

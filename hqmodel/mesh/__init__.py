@@ -6,8 +6,10 @@ from .measure import report
 from .mesh import Mesh, MeshError, Quads
 from .placing import FORMATS, METRES, SIZES, UP_AXIS, fitted, sized
 from .radial import radial_quads
+from .room import COARSE, expected_faces, lack_of_room, must_have_room
 
 __all__ = [
+    "COARSE",
     "FEWEST_FACES",
     "FORMATS",
     "MAX_RESOLUTION",
@@ -18,7 +20,10 @@ __all__ = [
     "MeshError",
     "Progress",
     "Quads",
+    "expected_faces",
     "fitted",
+    "lack_of_room",
+    "must_have_room",
     "polygonize",
     "radial_quads",
     "report",

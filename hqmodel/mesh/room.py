@@ -1,0 +1,58 @@
+"""Whether a mesh will find room in memory, judged by a coarse one before the work is begun."""
+
+from __future__ import annotations
+
+import os
+from math import sqrt
+
+from hqmodel import memory
+from hqmodel.model import Scene
+
+from .build import polygonize
+from .mesh import MeshError
+
+# Cells along the longest side of the coarse mesh.
+COARSE = 48
+# Bytes that meshing, measuring and writing want at the most: for each triangle, or each that there was before they were
+# reduced; for each tile under way; and for the rest. Measured for bodies of all kinds and formats at 256 to 1,024 cells.
+_FACE, _REDUCED, _TILE, _REST = 150.0, 220.0, 4e7, 4e7
+# More triangles than that, in squares of the resolution, no body was seen to have.
+_MOST = 60.0
+
+
+def expected_faces(coarse: int, resolution: int) -> float:
+    """Triangles at that resolution of a body that has so many at `COARSE` cells: they go with its square."""
+    return coarse * (resolution / COARSE) ** 2
+
+
+def lack_of_room(coarse: int, resolution: int, reducing: bool) -> str:
+    """Why there is no memory for such a mesh, and up to which resolution there is; empty where there is.
+
+    `coarse`: how many triangles the body has at `COARSE` cells. `reducing`: whether they are to become fewer.
+    """
+    each, rest, free = _REDUCED if reducing else _FACE, _rest(), memory.available()
+    needed = rest + each * expected_faces(coarse, resolution)
+    if needed <= free:
+        return ""
+    fits = int(COARSE * sqrt(max(0.0, free - rest) / (each * coarse)))
+    return (
+        f"resolution: expected at most {fits} in the {memory.told(free)} of memory that are free, "
+        f"got {resolution}, which needs about {memory.told(needed)}"
+    )
+
+
+def must_have_room(scene: Scene, resolution: int, reducing: bool = False) -> None:
+    """Raise MeshError where there is no memory for the scene's mesh. It costs a coarse one where that is in doubt."""
+    if _rest() + _REDUCED * _MOST * resolution**2 <= memory.available():
+        return
+    try:
+        coarse = len(polygonize(scene, COARSE, shading=False).faces)
+    except MeshError:
+        return  # the finer one will say what is wrong
+    lack = lack_of_room(coarse, resolution, reducing)
+    if lack:
+        raise MeshError(lack)
+
+
+def _rest() -> float:
+    return _REST + _TILE * (os.cpu_count() or 1)
