@@ -6,9 +6,11 @@ Each part prints one line of numbers, and ends with an error at the first fault.
 from __future__ import annotations
 
 import gc
+import json
 import os
 import random
 import resource
+import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -22,6 +24,7 @@ from hqmodel.app.asks import ExportSettings
 from hqmodel.app.export import ExportJob
 from hqmodel.app.session import Session
 from hqmodel.gpu import offscreen
+from tests.app.outside import surroundings
 from tests.app.tools.test_random import stirred
 from tests.reliability import kills, mutants, wild
 from tests.reliability.objects import alive_after
@@ -78,6 +81,15 @@ def soaked() -> object:
     return {"gestures": GESTURES, "steps kept": len(session.history.labels), "MiB": sizes}
 
 
+def stirred_window() -> object:
+    """Random gestures by the mouse and the keys in the real window: every 25 of them saved, reloaded and seen again."""
+    with TemporaryDirectory() as folder:
+        window = [sys.executable, "-m", "tests.app.drive", "tests.app.stirring:long", folder]
+        screen = ["xvfb-run", "-a", "-s", "-screen 0 1280x800x24"]
+        subprocess.run([*screen, *window], env=surroundings("", Path(folder)), stdout=subprocess.DEVNULL, check=True)
+        return json.loads(Path(folder, "stirred.json").read_text())
+
+
 def _resident() -> int:
     gc.collect()
     return int(Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize() >> 20
@@ -88,7 +100,9 @@ def drawn() -> object:
     return alive_after(offscreen(), DRAWN)
 
 
-PARTS: dict[str, Callable[[], object]] = {part.__name__: part for part in (killed, damaged, numbers, stopped, soaked, drawn)}
+PARTS: dict[str, Callable[[], object]] = {
+    part.__name__: part for part in (killed, damaged, numbers, stopped, soaked, stirred_window, drawn)
+}
 
 if __name__ == "__main__":
     for name in sys.argv[1:] or PARTS:

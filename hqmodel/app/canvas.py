@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+from numpy.typing import NDArray
+
 from hqmodel.field import Region
 from hqmodel.gpu import Legend, Preview, Seen
 from hqmodel.model import Scene
@@ -53,6 +56,10 @@ class Canvas:
             self.unfinished = self._preview.draw(view.camera, size, view.mode, quick, budget, view.cut, lit, view.ghosts)
         self._lit = lit
         return int(self._preview.texture.glo)
+
+    def pixels(self) -> NDArray[np.uint8]:
+        """The picture as it stands, (height, width, 4), top row first."""
+        return self._preview.pixels()
 
     def pick(self, view: View, size: tuple[int, int], pixel: tuple[int, int]) -> Seen | None:
         """What the picture shows at a pixel, counted from the top left."""

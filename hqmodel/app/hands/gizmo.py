@@ -62,13 +62,15 @@ class Gizmo:
         guizmo.set_gizmo_size_clip_space(_SIZE)
         start = np.eye(4)
         start[:3, 3] = pivot(session.scene, chosen) if self.before is None else self.pivot
-        matrix = _matrix16(start if self.matrix is None else self.matrix)
+        held = start if self.matrix is None else self.matrix
+        matrix = _matrix16(held)
         snap = guizmo.Matrix3([_STEPS[tool]] * 3) if imgui.get_io().key_ctrl and tool in _STEPS else None
         guizmo.manipulate(view, projection, _OPERATIONS[tool], guizmo.MODE.world, matrix, None, snap)
         if not guizmo.is_using():
             ended, self.before, self.matrix = self.before is not None, None, None
             return [Release()] if ended else []
-        self.matrix = _array(matrix)
+        after = _array(matrix)
+        self.matrix = after if np.all(np.isfinite(after)) else held  # it has no answer where it is pulled along the view
         intents: list[Intent] = []
         if self.before is None:
             self.before, self.pivot = session.scene, vector(start[:3, 3])
