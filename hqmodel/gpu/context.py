@@ -38,6 +38,13 @@ def offscreen() -> moderngl.Context:
     raise GpuError(f"{_ADVICE} ({'; '.join(reasons)})")
 
 
+def must_be_sound(ctx: moderngl.Context) -> None:
+    """Raise GpuError where OpenGL has failed since this was asked last: a lost context draws nothing, and is silent."""
+    error = ctx.error
+    if error != "GL_NO_ERROR":
+        raise GpuError(f"OpenGL has failed ({error}): the graphics driver was reset, or has a fault; start the program again")
+
+
 @contextmanager
 def framebuffer_kept(ctx: moderngl.Context) -> Iterator[None]:
     """Whatever framebuffer is bound now is bound again afterwards: releasing a bound one would leave later calls in error."""

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from hqmodel.field import Plane, Region, Terms, region
 from hqmodel.model import Camera, Scene, usual
 
-from .context import framebuffer_kept, offscreen
+from .context import framebuffer_kept, must_be_sound, offscreen
 from .floor import floor_height
 from .memory import SceneMemory
 from .picture import BATCH, Picture
@@ -42,7 +42,8 @@ def render(
 
     Without a camera the body is framed from its usual side. What lies in front of the plane `cut` is left out, and the cut is
     shown filled. `progress` is told the share done (0..1) and what is being done; whatever it raises ends the work. `where` is
-    the scene's region, for those who have it. Raises GpuError without OpenGL, ValueError for a mode that is none of `MODES`.
+    the scene's region, for those who have it. Raises GpuError without OpenGL, or where it fails,
+    ValueError for a mode that is none of `MODES`.
     """
     own = offscreen() if ctx is None else ctx
     terms = Terms.of(scene)
@@ -78,4 +79,5 @@ def _drawn(
         result[bottom : bottom + height, left : left + width] = drawn.reshape(height, width, 4)
         picture.release()
     studio.release()
+    must_be_sound(ctx)
     return result[::-1].copy()

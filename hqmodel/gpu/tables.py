@@ -12,7 +12,7 @@ from hqmodel.field import Region, Terms, region
 from hqmodel.field.rays import box_interval
 from hqmodel.model import Scene
 
-from .context import framebuffer_kept, offscreen
+from .context import framebuffer_kept, must_be_sound, offscreen
 from .memory import SceneMemory
 from .packing import LIMIT
 from .screen import Target, shared_pass
@@ -58,7 +58,7 @@ def raycast(scene: Scene, origins: ArrayLike, directions: ArrayLike, ctx: modern
     """Distance in world units from each origin (n, 3) along its direction (n, 3, any length) to the first entry into the body.
 
     (n,) values, NaN for a miss; 0 where the origin is inside. By the preview's own intersection. Raises GpuError without
-    OpenGL.
+    OpenGL, or where it fails.
     """
     own = offscreen() if ctx is None else ctx
     terms = Terms.of(scene)
@@ -67,6 +67,7 @@ def raycast(scene: Scene, origins: ArrayLike, directions: ArrayLike, ctx: modern
     memory.write(scene, terms, where)
     result = cast(own, memory, where, origins, directions)
     memory.release()
+    must_be_sound(own)
     if ctx is None:
         own.release()
     return result
