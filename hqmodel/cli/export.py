@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import re
+import sys
 from dataclasses import replace
+from math import inf, nan
 from pathlib import Path
 from time import perf_counter
 from typing import Annotated, Any, Literal
 
 import typer
 
+from hqmodel.model import shown
+
 from .faults import INPUT, USAGE, Fault
-from .options import Json, Preset, Quiet, Set, Slice, scene_of
+from .options import NUMBER, Json, Preset, Quiet, Set, Slice, scene_of
 from .outputs import checked, tell, writing
 from .progress import progress
 
@@ -24,14 +29,28 @@ Output = Annotated[
     ),
 ]
 Resolution = Annotated[
-    int,
-    typer.Option("--resolution", metavar="N", min=4, max=2048, help="Cells along the longest side; radial: quads round it."),
+    int | None,
+    typer.Option(
+        "--resolution",
+        metavar="N",
+        min=4,
+        max=2048,
+        help="Cells along the longest side, 256 or as a tolerance asks for; radial: quads round it.",
+    ),
 ]
 Method_ = Annotated[
     Method, typer.Option("--method", help="Marching cubes, or a radial grid: quads with texture coordinates, in .obj.")
 ]
 TargetFaces = Annotated[
     int | None, typer.Option("--target-faces", metavar="N", min=4, help="Reduce the mesh to at most so many triangles.")
+]
+Tolerance = Annotated[
+    str | None,
+    typer.Option(
+        "--tolerance",
+        metavar="LENGTH",
+        help="As few triangles as lie within that length of the true surface, as 0.1 or, with --unit, 0.1mm.",
+    ),
 ]
 Unit_ = Annotated[Unit | None, typer.Option("--unit", help="The unit that lengths in the file are in.")]
 Size = Annotated[float | None, typer.Option("--size", metavar="X", help="The longest side, in that unit.")]
@@ -43,9 +62,10 @@ Normals = Annotated[bool, typer.Option("--normals/--no-normals", help="Vertex no
 def export(
     preset: Preset,
     output: Output,
-    resolution: Resolution = 256,
+    resolution: Resolution = None,
     method: Method_ = "cubes",
     target_faces: TargetFaces = None,
+    tolerance: Tolerance = None,
     unit: Unit_ = None,
     size: Size = None,
     up: Up_ = None,
@@ -66,18 +86,21 @@ def export(
 
     if size is not None and not mesh.SIZES[0] <= size <= mesh.SIZES[1]:
         raise Fault(f"--size: expected a number from {mesh.SIZES[0]:g} to {mesh.SIZES[1]:g}, got {size:g}", USAGE)
-    if method == "radial" and target_faces is not None:
-        raise Fault("--target-faces: expected --method cubes with it, got radial", USAGE)
+    for option, wanted in (("--target-faces", target_faces), ("--tolerance", tolerance)):
+        if method == "radial" and wanted is not None:
+            raise Fault(f"{option}: expected --method cubes with it, got radial", USAGE)
+    if target_faces is not None and tolerance is not None:
+        raise Fault("--tolerance: expected no --target-faces beside it, got both", USAGE)
+    length = None if tolerance is None else _length(tolerance, unit)
     checked(output, mesh.FORMATS, [preset])
     try:
-        if method == "cubes":
-            mesh.must_have_room(scene, resolution, target_faces is not None)
         with progress(quiet) as report:
-            made = (
-                mesh.radial_quads(scene, resolution, report)
-                if method == "radial"
-                else mesh.polygonize(scene, resolution, report, target_faces=target_faces)
-            )
+            if method == "radial":
+                made = mesh.radial_quads(scene, resolution or mesh.USUAL_RESOLUTION, report)
+            else:
+                mesh.must_have_room(scene, resolution or mesh.USUAL_RESOLUTION, target_faces is not None or length is not None)
+                most = None if length is None else mesh.in_world(scene, length, size)
+                made = mesh.polygonize(scene, resolution, report, target_faces=target_faces, tolerance=most)
             body = mesh.sized(made, size)
         result = mesh.report(body)
         shaded = replace(body, colors=body.colors if colors else None, normals=body.normals if normals else None)
@@ -87,9 +110,36 @@ def export(
                 mesh.write(mesh.fitted(shaded, suffix, unit=unit, up=up), stream, suffix, scene.name)
     except mesh.MeshError as error:
         raise Fault(f"{preset}: {error}", INPUT) from None
-    result |= {"method": method, "quads": len(body.quads.corners) if body.quads else 0}
-    result |= {"resolution": resolution, "seconds": perf_counter() - started, "files": [str(path) for path in output]}
+    result |= {"method": method, "quads": len(body.quads.corners) if body.quads else 0, "resolution": made.resolution}
+    result |= {"tolerance": length, "seconds": perf_counter() - started, "files": [str(path) for path in output]}
+    if length is not None and result["surface_error"] > length:
+        print(f"{preset}: {_missed(result)}", file=sys.stderr)
     tell(result, _text(result), as_json, quiet)
+
+
+def _length(text: str, unit: Unit | None) -> float:
+    """The length, in the file's unit, that --tolerance means; Fault for what is none."""
+    match = re.fullmatch(rf"(?P<number>{NUMBER.pattern}) ?(?P<unit>mm|cm|m|in)?", text.strip(), NUMBER.flags)
+    length = float(match["number"]) if match else nan
+    if match is None or not 0 < length < inf:
+        raise Fault(f"--tolerance: expected a length above 0 such as 0.1 or 0.1mm, got {shown(text)}", USAGE)
+    if match["unit"] is None:
+        return length
+    if unit is None:
+        raise Fault(f"--tolerance: expected --unit beside it, as lengths in the file have none, got {shown(text)}", USAGE)
+    from hqmodel.mesh import METRES
+
+    return length * METRES[match["unit"].lower()] / METRES[unit]
+
+
+def _missed(result: dict[str, Any]) -> str:
+    """What to say of a tolerance that was not met."""
+    from hqmodel.mesh import MAX_RESOLUTION, finer
+
+    cells, error, length = result["resolution"], result["surface_error"], result["tolerance"]
+    needed = finer(cells, error, length)
+    hope = f"--resolution {needed} may do" if needed <= MAX_RESOLUTION else "no --resolution would do"
+    return f"--tolerance: expected no point further off than {length:g}, got {error:.2g} at a resolution of {cells}; {hope}"
 
 
 def _text(result: dict[str, Any]) -> str:

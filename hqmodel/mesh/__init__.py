@@ -1,12 +1,13 @@
 """From the field to triangles, and triangles to files."""
 
-from .build import FEWEST_FACES, MAX_RESOLUTION, Progress, polygonize
+from .build import FEWEST_FACES, MAX_RESOLUTION, USUAL_RESOLUTION, Progress, polygonize
 from .formats import write
 from .measure import report
 from .mesh import Mesh, MeshError, Quads
-from .placing import FORMATS, METRES, SIZES, UP_AXIS, fitted, sized
+from .placing import FORMATS, METRES, SIZES, UP_AXIS, fitted, in_world, sized
 from .radial import radial_quads
-from .room import COARSE, expected_faces, lack_of_room, must_have_room
+from .room import expected_faces, lack_of_room, must_have_room
+from .tolerance import COARSE, finer
 
 __all__ = [
     "COARSE",
@@ -16,12 +17,15 @@ __all__ = [
     "METRES",
     "SIZES",
     "UP_AXIS",
+    "USUAL_RESOLUTION",
     "Mesh",
     "MeshError",
     "Progress",
     "Quads",
     "expected_faces",
+    "finer",
     "fitted",
+    "in_world",
     "lack_of_room",
     "must_have_room",
     "polygonize",

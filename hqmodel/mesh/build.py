@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
+from math import inf
 
 import numpy as np
 
@@ -29,10 +30,11 @@ from .grid import Grid, make_grid
 from .mesh import Mesh, MeshError
 from .refine import place_vertices
 from .shade import clothed
+from .tolerance import COARSE, MOST, fineness, finer
 from .weld import Piece, Weld
 
 Progress = Callable[[float, str], None]
-MAX_RESOLUTION = 2048
+USUAL_RESOLUTION, MAX_RESOLUTION = 256, 2048
 FEWEST_FACES = 4
 # Samples this near to the level are rounding: fields that stay at their level throughout (an octahedron's slices) have no body.
 _ROUNDING = 1e-13
@@ -42,26 +44,45 @@ _COARSEST = 1e-7
 
 def polygonize(
     scene: Scene,
-    resolution: int = 256,
+    resolution: int | None = None,
     progress: Progress | None = None,
     *,
     shading: bool = True,
     target_faces: int | None = None,
+    tolerance: float | None = None,
 ) -> Mesh:
     """The scene's body as a closed triangle mesh in world units, outward normals and sRGB colours included if `shading`.
 
-    `resolution` is the number of cells along the body's longest side. `progress` is told the share done (0..1) and what is
-    being done; whatever it raises ends the work. A scene that is its own mirror image gives a mesh that is, to the last bit.
+    `resolution` is the number of cells along the body's longest side: 256, or what the tolerance asks for. `progress` is told the
+    share done (0..1) and what is being done; whatever it raises ends the work. A scene that is its own mirror image gives a mesh
+    that is, to the last bit.
     `target_faces`: the mesh is reduced to at most so many triangles, where they are missed least, as far as it stays sound.
+    `tolerance`: no point of the mesh is to be further from the true surface, in world units; there are as few triangles as that
+    takes. Where it can't be met the mesh's `surface_error` says how far it is off.
 
     Raises MeshError when there is no surface, when the body has no end, or when a number is out of range.
     """
-    if not 4 <= resolution <= MAX_RESOLUTION:
+    if resolution is not None and not 4 <= resolution <= MAX_RESOLUTION:
         raise MeshError(f"resolution: expected a whole number from 4 to {MAX_RESOLUTION}, got {resolution}")
     if target_faces is not None and target_faces < FEWEST_FACES:
         raise MeshError(f"target faces: expected a whole number of at least {FEWEST_FACES}, got {target_faces}")
+    if tolerance is not None and not 0 < tolerance < inf:
+        raise MeshError(f"tolerance: expected a number above 0, got {tolerance:g}")
     tell = progress or _silent
     tell(0.0, "Finding the body")
+    if tolerance is None or resolution is not None:
+        mesh = _mesh(scene, resolution or USUAL_RESOLUTION, tell, target_faces, tolerance)
+    else:
+        cells = fineness(Terms.of(scene), _mesh(scene, COARSE, _silent), tolerance)
+        mesh = _mesh(scene, cells, tell, target_faces, tolerance)
+        while (mesh.surface_error or 0.0) > tolerance and cells < MOST:
+            cells = min(MOST, finer(cells, mesh.surface_error or 0.0, tolerance))
+            mesh = _mesh(scene, cells, tell, target_faces, tolerance)
+    tell(1.0, "Done")
+    return mesh if shading else replace(mesh, normals=None, colors=None)
+
+
+def _mesh(scene: Scene, resolution: int, tell: Progress, target_faces: int | None = None, tolerance: float | None = None) -> Mesh:
     terms = Terms.of(scene)
     where = region(scene, terms)
     _must_exist(scene, where)
@@ -74,11 +95,10 @@ def polygonize(
             weld.add(piece)
     if not weld:
         raise MeshError("no surface: the field does not reach its level anywhere at this resolution")
-    still = partial(tell, 0.95, "Joining" if target_faces is None else "Reducing")
+    still = partial(tell, 0.95, "Joining" if target_faces is None and tolerance is None else "Reducing")
     still()
-    mesh = finished(scene, terms, grid, weld, mirrored, target_faces, still)
-    tell(1.0, "Done")
-    return mesh if shading else replace(mesh, normals=None, colors=None)
+    mesh = finished(scene, terms, grid, weld, mirrored, target_faces, tolerance, still)
+    return replace(mesh, resolution=resolution)
 
 
 def _silent(share: float, doing: str) -> None:

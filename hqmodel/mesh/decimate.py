@@ -15,7 +15,7 @@ import numpy as np
 
 from .mesh import Array, Triangles, dots
 from .quadrics import area, error, least, quadrics
-from .stars import Bits, Bools, Corners, Numbers, Stars, apart, closed, following
+from .stars import Bits, Bools, Corners, Near, Numbers, Stars, apart, closed, following
 
 Place = Callable[[Array, Bools], Array]
 
@@ -46,6 +46,7 @@ def simplified(
     mirrored: tuple[int, ...] = (),
     place: Place | None = None,
     most: float = inf,
+    near: Near | None = None,
 ) -> tuple[Array, Triangles]:
     """Vertices and faces of a mesh, (V, 3) and (F, 3), with `target` faces or one less; with more where that can't be reached.
 
@@ -55,14 +56,14 @@ def simplified(
 
     `place` brings points (n, 3) onto the surface and leaves held coordinates, (n, 3), alone; points within a flat part all
     whose vertices are held are not asked for. `most` is about how far faces may come to lie from the surface, in the unit of
-    the mesh.
+    the mesh. `near` tells which triangles, by their corners (n, 3) each, lie near enough to the surface to be made.
     """
     work = _Work.of(vertices, faces, held, mirrored, most)
     changed = True
     while (left := work.count - target) > 0:
         edges = work.cheapest(left)
         if len(edges):
-            changed |= work.collapse(edges, left, place)
+            changed |= work.collapse(edges, left, place, near)
         elif changed:
             work.price(np.arange(work.faces.size))  # what could not be collapsed may be by now
             changed = False
@@ -147,14 +148,14 @@ class _Work:
         uneven = 1 + _UNEVEN * (found * _GOLDEN % 1)
         return found[np.argsort(cost[found] * uneven, kind="stable")]
 
-    def collapse(self, edges: Corners, left: int, place: Place | None) -> bool:
+    def collapse(self, edges: Corners, left: int, place: Place | None, near: Near | None) -> bool:
         """Collapse some of edges, cheapest first, until so many faces are gone; whether any could be."""
         vertex = self.faces.ravel()
         dearest = float(self.cost.ravel()[edges].max())
         edges, ends = apart(self.faces, edges, len(self.kind))
         start, end = vertex[edges], vertex[following(edges, self.faces)]
         stars = Stars.of(self.faces, ends)
-        points, good = self._settled(stars, start, end, dearest, place)
+        points, good = self._settled(stars, start, end, dearest, place, near)
         self.cost.ravel()[edges[~good]] = inf
         takes = np.where(good, np.count_nonzero(stars.across != stars.apex, axis=1), 0)
         good &= np.cumsum(takes) - takes < left
@@ -171,7 +172,9 @@ class _Work:
         self.share = _SHARE if np.mean(good) > 0.5 else min(1.0, 2 * self.share)
         return bool(good.any())
 
-    def _settled(self, stars: Stars, start: Numbers, end: Numbers, dearest: float, place: Place | None) -> tuple[Array, Bools]:
+    def _settled(
+        self, stars: Stars, start: Numbers, end: Numbers, dearest: float, place: Place | None, near: Near | None
+    ) -> tuple[Array, Bools]:
         """Where the ends of edges are merged, (E, 3), and whether they can be, (E,).
 
         In the best place, or else in one of the ends where that costs no more than the dearest edge of the round.
@@ -189,8 +192,10 @@ class _Work:
         tries = (best, kind, inf), (self.points[start], self.kind[start], dearest), (self.points[end], self.kind[end], dearest)
         for trial, its_kind, limit in tries:
             off, also_off = error(one, trial - self.centre), error(other, trial - self.centre)
-            near = (off <= self.worst * area(one)) & (also_off <= self.worst * area(other)) & (off + also_off <= limit)
-            may = stars.fair(self.points, trial, simple & ~good & (its_kind == kind) & near)
+            cheap = (off <= self.worst * area(one)) & (also_off <= self.worst * area(other)) & (off + also_off <= limit)
+            may = stars.fair(self.points, trial, simple & ~good & (its_kind == kind) & cheap)
+            if near is not None:
+                may = stars.near(self.points, trial, may, near)
             points = np.where(may[:, None], trial, points)
             good |= may
         return points, good

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from hqmodel.field import Terms, near_linear_gradient
 from hqmodel.model import Scene
 
-from .creases import Plane, creased
+from .creases import creased
 from .decimate import simplified
 from .grid import Grid
 from .manifold import parted
@@ -18,6 +18,8 @@ from .measure import depths, largest_distance
 from .mesh import Array, Mesh, Triangles, alike, lengths, reflected
 from .refine import to_surface
 from .shade import clothed, colored, on_caps, with_caps
+from .splits import Plane
+from .tolerance import Surface, adapted
 from .weld import Weld
 
 # Vertices on the surface leave the triangles between them on one side of it. Moved out by this share of how far their faces'
@@ -50,6 +52,7 @@ def finished(
     weld: Weld,
     mirrored: tuple[int, ...],
     target_faces: int | None,
+    tolerance: float | None,
     still: Callable[[], None],
 ) -> Mesh:
     """The whole mesh from its welded pieces: the part on one side of the mirror planes, and its images.
@@ -70,15 +73,19 @@ def finished(
         off = _measured(terms, grid, vertices, faces, off[split.origin], split.origin)
     still()
     share = len(faces) if target_faces is None else target_faces // 2 ** len(mirrored)
-    if share < len(faces):
-        vertices, faces = _fewer(terms, grid, vertices, faces, mirrored, planes, share, still)
+    error = 0.0
+    if tolerance is not None or share < len(faces):
+        if tolerance is not None:
+            vertices, faces, error = adapted(Surface(terms, planes, grid.cell), vertices, faces, off, mirrored, tolerance, still)
+        else:
+            vertices, faces = _fewer(terms, grid, vertices, faces, mirrored, planes, share, still)
         within = np.ones(len(vertices), dtype=bool)
         within[faces[~on_caps(faces, vertices, grid)]] = False
         slopes = near_linear_gradient(terms, vertices)[1]
         normals, colors, off = clothed(scene, terms, grid, vertices, slopes, faces, within)
         pinched = np.full(len(vertices), pinched.any())
     still()
-    mesh = Mesh(vertices, faces, normals, colors, largest_distance(terms, vertices, faces, off, grid.cell))
+    mesh = Mesh(vertices, faces, normals, colors, max(error, largest_distance(terms, vertices, faces, off, grid.cell)))
     for axis in mirrored:
         still()
         pinched = np.append(pinched, pinched[mesh.vertices[:, axis] != 0])

@@ -32,8 +32,9 @@ class Mesh:
     """Triangles in counter-clockwise order seen from outside.
 
     `vertices` (V, 3) and `faces` (F, 3); `normals` (V, 3) are unit and outward, `colors` (V, 3) sRGB in 0..255.
-    `surface_error` is the largest measured distance of a face's middle from the true surface, in the mesh's own unit. Where the
-    mesh has `quads`, the triangles are their halves.
+    `surface_error` is the largest measured distance of a face's middle from the true surface, in the mesh's own unit; of a mesh
+    within a tolerance it is that of any point of its faces. Where the mesh has `quads`, the triangles are their halves.
+    `resolution`: the cells along the longest side that it was made with.
     """
 
     vertices: Array
@@ -42,6 +43,7 @@ class Mesh:
     colors: NDArray[np.uint8] | None = None
     surface_error: float | None = None
     quads: Quads | None = None
+    resolution: int | None = None
 
 
 def marks(marked: NDArray[np.bool_], faces: Triangles) -> NDArray[np.uint8]:

@@ -7,7 +7,11 @@ from typing import Literal
 
 import numpy as np
 
+from hqmodel.model import Scene
+
+from .build import polygonize
 from .mesh import Mesh, MeshError
+from .tolerance import COARSE
 
 Unit = Literal["mm", "cm", "m", "in"]
 Up = Literal["y", "z"]
@@ -37,6 +41,13 @@ def sized(mesh: Mesh, size: float | None) -> Mesh:
     if not SIZES[0] <= size <= SIZES[1]:
         raise MeshError(f"size: expected a number from {SIZES[0]:g} to {SIZES[1]:g}, got {size:g}")
     return _scaled(mesh, size / float(np.max(np.ptp(mesh.vertices, axis=0))))
+
+
+def in_world(scene: Scene, length: float, size: float | None) -> float:
+    """What a length in a file is in the modeller, when the body's longest side, by a coarse mesh, is `size` in it."""
+    if size is None:
+        return length
+    return length * float(np.max(np.ptp(polygonize(scene, COARSE, shading=False).vertices, axis=0))) / size
 
 
 def fitted(mesh: Mesh, suffix: str, unit: Unit | None = None, size: float | None = None, up: Up | None = None) -> Mesh:

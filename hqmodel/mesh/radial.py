@@ -6,6 +6,7 @@ the cube's faces make a cross, which gives texture coordinates: their only seams
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -73,7 +74,7 @@ def radial_quads(scene: Scene, around: int = 256, progress: Progress | None = No
     cube = _cube(2 * max(1, round(around / 8)))
     mesh = _blown_up(scene, terms, where, centre, cube, tell)
     tell(1.0, "Done")
-    return mesh
+    return replace(mesh, resolution=around)
 
 
 def _cube(n: int) -> _Cube:

@@ -10,9 +10,8 @@ from hqmodel.model import Scene
 
 from .build import polygonize
 from .mesh import MeshError
+from .tolerance import COARSE
 
-# Cells along the longest side of the coarse mesh.
-COARSE = 48
 # Bytes that meshing, measuring and writing want at the most: for each triangle, or each that there was before they were
 # reduced; for each tile under way; and for the rest. Measured for bodies of all kinds and formats at 256 to 1,024 cells.
 _FACE, _REDUCED, _TILE, _REST = 150.0, 220.0, 4e7, 4e7

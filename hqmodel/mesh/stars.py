@@ -6,6 +6,7 @@ told by the corner that it starts at.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import cos, radians, sin
 
@@ -18,6 +19,7 @@ Bits = NDArray[np.uint8]
 Bools = NDArray[np.bool_]
 Corners = NDArray[np.int64]
 Numbers = NDArray[np.int32]
+Near = Callable[[Array, Array, Array], Bools]
 
 # No face turns by more than this, and no angle falls below this unless a sharper one was near.
 _TURN = cos(radians(80.0))
@@ -142,8 +144,7 @@ class Stars:
     def fair(self, points: Array, merged: Array, which: Bools) -> Bools:
         """Which of some edges, (E,), can be merged in points (E, 3) without faces that turn over or become slivers."""
         before, after = np.ones(len(merged)), np.ones(len(merged))
-        real = np.flatnonzero(which[self.edge] & np.all(self.vertices[1:] != self.apex, axis=0))
-        for some in np.array_split(real, len(real) // _AT_ONCE + 1):
+        for some in self._real(which):
             edge = self.edge[some]
             p, a, b = (points.take(vertices[some], axis=0) for vertices in self.vertices)
             old, sharp = _shape(p, a, b)
@@ -156,6 +157,20 @@ class Stars:
             a, b = points[self.along[rows].T]
             before[rows] = np.minimum(before[rows], _shape(a, b, points[across])[1])
         return which & (after >= np.clip(before, _LEAST**2, _SHARPEST**2))
+
+    def near(self, points: Array, merged: Array, which: Bools, near: Near) -> Bools:
+        """Which of some edges, (E,), can be merged in points (E, 3) with faces that are all `near`, as told of corners (n, 3)."""
+        result = which.copy()
+        for some in self._real(which):
+            _, a, b = self.vertices[:, some]
+            edge = self.edge[some]
+            result[edge[~near(merged.take(edge, axis=0), points.take(a, axis=0), points.take(b, axis=0))]] = False
+        return result
+
+    def _real(self, which: Bools) -> list[NDArray[np.intp]]:
+        """The faces that stay about some edges, (E,), less the cone's; so many at once."""
+        real = np.flatnonzero(which[self.edge] & np.all(self.vertices[1:] != self.apex, axis=0))
+        return np.array_split(real, len(real) // _AT_ONCE + 1)
 
 
 def _shape(a: Array, b: Array, c: Array) -> tuple[Array, Array]:

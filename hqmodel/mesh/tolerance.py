@@ -1,0 +1,213 @@
+"""A mesh within a tolerance of the true surface: triangles many where it curves, few where it is flat.
+
+Faces that are too far off are split; then edges collapse as long as the faces about them stay near; at last every face is
+measured at points no further apart than the cells of the grid that it came from, and split where need be.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hqmodel.field import Terms, curvature, near_linear_gradient
+
+from .creases import crossings
+from .decimate import simplified
+from .mesh import Array, Mesh, Triangles, dots, lengths, marks
+from .refine import to_surface
+from .splits import Indices, Part, Plane
+
+Bools = NDArray[np.bool_]
+
+# Cells along the longest side that a body is first looked at with, and the fewest and the most that are chosen for a tolerance.
+COARSE, FEWEST, MOST = 48, 64, 512
+# Cells no larger than the tolerance see all that is, and so many, along the longest side, are taken to see enough.
+_ENOUGH = 256
+# The share of the surface that cells are to be fine enough for as it curves; the rest is split.
+_SMOOTH = 0.75
+# How many times finer to look again where a tolerance was not met, and how much finer than proportion would have it.
+_AGAIN, _FINER = (1.4, 4.0), 1.1
+# The shares of the tolerance that faces may be off before edges collapse, while they do, and at last.
+_BEFORE, _MEANWHILE, _AT_LAST = 0.5, 0.85, 0.97
+# How far off quadrics may think that faces come to lie, in tolerances: they judge on the safe side, ever more so.
+_SURELY, _PERHAPS = 0.7, 3.0
+_ROUNDS = 12
+_STEPS = 6
+# A point is on the surface when the last step towards it was shorter than this share of a cell.
+_ARRIVED = 1e-5
+# Faces whose middles are off by less than this share of the tolerance are not, elsewhere, off by what they may be.
+_DOUBTFUL = 0.15
+# The largest number of parts that a face's sides are divided in to be measured.
+_FINEST = 100
+_AT_ONCE = 1 << 15
+# Where in a triangle it is looked whether it may be made: the weights of its corners, the first of which is new. More points lie
+# towards the corners, as what is flat in the middle may bend there.
+_SHARES = np.array([0.5, 0.8, 0.2, 0.95, 0.05])
+_SPOTS = np.concatenate([np.stack([_SHARES, 1 - _SHARES, 0 * _SHARES], axis=1), np.full((1, 3), 1 / 3)])
+
+
+def adapted(
+    surface: Surface,
+    vertices: Array,
+    faces: Triangles,
+    off: NDArray[np.float32],
+    mirrored: tuple[int, ...],
+    tolerance: float,
+    still: Callable[[], None],
+) -> tuple[Array, Triangles, float]:
+    """Vertices and faces of a mesh within `tolerance`, and how far it is off at most as measured, in world units.
+
+    `off` (F,) is how far the middles of the faces given are.
+    """
+    away = np.abs(off).astype(float)
+    doubtful = away > _DOUBTFUL * tolerance
+    away[doubtful] = surface.off(vertices, faces[doubtful])
+    stages = [_refined(surface, vertices, faces, away, _BEFORE * tolerance, still)]
+
+    def place(points: Array, held: Bools) -> Array:
+        still()
+        return to_surface(surface.terms, points, surface.cell, _STEPS, held)[0]
+
+    # First as far as quadrics alone warrant it: that is quick, and little is left to measure.
+    for most, near in ((_SURELY, None), (_PERHAPS, surface.near(_MEANWHILE * tolerance))):
+        vertices, faces, _ = stages[-1]
+        fewer = simplified(vertices, faces, 0, surface.flat(vertices), mirrored, place, most * tolerance, near)
+        stages.append(_refined(surface, *fewer, surface.off(*fewer), _AT_LAST * tolerance, still))
+    errors = [float(np.max(away, initial=0.0)) for _, _, away in stages]
+    best = max(stage for stage, error in enumerate(errors) if error <= max(tolerance, errors[0]))
+    return *stages[best][:2], errors[best]
+
+
+def fineness(terms: Terms, coarse: Mesh, tolerance: float) -> int:
+    """How many cells along the longest side a tolerance asks for, judged by a coarse mesh.
+
+    An edge of length l over the principal curvature k (eqs. 24-26) is off by k l^2 / 8; with cells of size sqrt(tolerance / k)
+    their diagonals are off by a quarter of the tolerance.
+    """
+    gaussian, mean = curvature(terms, coarse.vertices)
+    principal = np.abs(mean) + np.sqrt(np.maximum(mean * mean - gaussian, 0.0))
+    side = float(np.max(np.ptp(coarse.vertices, axis=0)))
+    curved = side * np.sqrt(float(np.quantile(principal, _SMOOTH)) / tolerance)
+    return int(np.clip(np.ceil(max(min(_ENOUGH, side / tolerance), curved)), FEWEST, MOST))
+
+
+def finer(cells: int, error: float, tolerance: float) -> int:
+    """How many cells would about meet a tolerance that so many missed; creases that they cut off shrink in proportion."""
+    return int(np.ceil(cells * np.clip(_FINER * error / tolerance, *_AGAIN)))
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """The true surface, where a grid of cells of size `cell` found it, cut off or mirrored in `planes` (axis, coordinate)."""
+
+    terms: Terms
+    planes: list[Plane]
+    cell: float
+
+    def flat(self, points: Array) -> Bools:
+        """Which coordinates (n, 3) of points lie in a plane."""
+        held = np.zeros(points.shape, dtype=bool)
+        for axis, plane in self.planes:
+            held[:, axis] |= points[:, axis] == plane
+        return held
+
+    def near(self, most: float) -> Callable[[Array, Array, Array], Bools]:
+        """Tells which triangles, by their corners (n, 3) each, lie about within a distance."""
+
+        steps = _STEPS if np.any(self.terms.inner < 1) else 0  # where slopes are infinite, distances to first order are nothing
+
+        def near(a: Array, b: Array, c: Array) -> Bools:
+            return self._measured(np.stack([a, b, c]), _SPOTS, steps) <= most
+
+        return near
+
+    def off(self, vertices: Array, faces: Triangles) -> Array:
+        """How far each face is off the surface at most, (F,), as far as that can be seen by points a cell apart."""
+        result = np.zeros(len(faces))
+        corners = vertices[faces.T]
+        longest = np.sqrt(np.max(np.sum((corners - np.roll(corners, 1, axis=0)) ** 2, axis=2), axis=0))
+        parts = np.clip(np.ceil(longest / self.cell), 3, _FINEST).astype(int)
+        for number in np.unique(parts):
+            rows = np.flatnonzero(parts == number)
+            lattice = _lattice(int(number))
+            for some in np.array_split(rows, len(rows) * len(lattice) // _AT_ONCE + 1):
+                result[some] = self._measured(corners[:, some], lattice, _STEPS)
+        return result
+
+    def _measured(self, corners: Array, lattice: Array, steps: int) -> Array:
+        """How far triangles, by their corners (3, n, 3), are off at most at a lattice's points, (n,); within caps they aren't."""
+        flat = np.stack([self.flat(points) for points in corners])
+        capped = np.any(np.all(flat, axis=0), axis=1)
+        points = np.tensordot(lattice, corners, axes=1)
+        held = np.stack([np.all(flat[weights > 0], axis=0) for weights in lattice])
+        distance = self._distance(points[:, ~capped].reshape(-1, 3), held[:, ~capped].reshape(-1, 3), steps)
+        result = np.zeros(corners.shape[1])
+        result[~capped] = np.max(distance.reshape(len(lattice), -1), axis=0)
+        return result
+
+    def _distance(self, points: Array, held: Bools, steps: int) -> Array:
+        if steps:
+            return lengths(to_surface(self.terms, points, self.cell, steps, held)[0] - points)
+        linear, slope = near_linear_gradient(self.terms, points)
+        return np.abs(linear) / np.maximum(lengths(np.where(held, 0.0, slope)), 1e-200)
+
+
+def _lattice(parts: int) -> Array:
+    """Weights (n, 3) of the corners at points of a triangle whose sides are divided in so many parts, corners left out."""
+    i, j = np.meshgrid(np.arange(parts + 1), np.arange(parts + 1), indexing="ij")
+    weights = np.stack([i, j, parts - i - j], axis=-1).reshape(-1, 3)
+    return weights[(weights.min(axis=1) >= 0) & (weights.max(axis=1) < parts)] / parts
+
+
+def _refined(
+    surface: Surface, vertices: Array, faces: Triangles, off: Array, most: float, still: Callable[[], None]
+) -> tuple[Array, Triangles, Array]:
+    """The mesh with faces split that are further off than `most`, and how far each is; `off` (F,) is that before."""
+    for _ in range(_ROUNDS):
+        still()
+        bad = off > most
+        if not bad.any():
+            break
+        marked = np.zeros(len(vertices), dtype=bool)
+        marked[faces[bad]] = True
+        near = marks(marked, faces) >= 2
+        corners, which = np.unique(faces[near], return_inverse=True)
+        part = Part(surface.terms, vertices[corners], which.reshape(-1, 3), surface.planes)
+        part.split(*_splits(surface, part, off[near], most))
+        if len(part.points) == len(corners):
+            break
+        number = np.append(corners, np.arange(len(part.points) - len(corners)) + len(vertices)).astype(np.int32)
+        vertices = np.concatenate([vertices, part.points[len(corners) :]])
+        fresh = number[part.faces]
+        known = off[near][part.origin]
+        anew = np.bincount(part.origin)[part.origin] > 1
+        known[anew] = surface.off(vertices, fresh[anew])
+        faces, off = np.concatenate([faces[~near], fresh]), np.concatenate([off[~near], known])
+    return vertices, faces, off
+
+
+def _splits(surface: Surface, part: Part, off: Array, most: float) -> tuple[Indices, Array]:
+    """One side of each face that is further off than `most`, and where to split it; `off` (F,) is how far each face is.
+
+    The side that is off furthest itself, or the longest where none is off by half as much as the face.
+    """
+    bad = off > most
+    sides = np.sort(np.stack([part.faces[bad], np.roll(part.faces[bad], -1, axis=1)], axis=2), axis=2)
+    edges, which = np.unique(sides.reshape(-1, 2), axis=0, return_inverse=True)
+    a, b = part.points[edges.T]
+    middles, last = to_surface(surface.terms, (a + b) / 2, surface.cell, _STEPS, part.held(edges))
+    length, away = lengths(b - a), lengths(middles - (a + b) / 2)
+    of_side = which.reshape(-1, 3)
+    by_length = np.max(away[of_side], axis=1) < 0.5 * off[bad]
+    chosen = np.where(by_length, np.argmax(length[of_side], axis=1), np.argmax(away[of_side], axis=1))
+    wanted = np.unique(of_side[np.arange(len(chosen)), chosen])
+    ahead = dots(part.looking(middles), part.normals[edges].sum(axis=1)) > 0
+    there = (last < _ARRIVED * surface.cell) & (away < 0.5 * length) & ahead
+    crossed, on_crease = crossings(surface.terms, part, edges[wanted], surface.cell)
+    rows = wanted[np.isin(edges[wanted] @ (len(part.points), 1), crossed @ (len(part.points), 1))]
+    middles[rows], there[rows] = on_crease, True
+    wanted = wanted[there[wanted]]
+    return edges[wanted], middles[wanted]
