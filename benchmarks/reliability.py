@@ -83,11 +83,21 @@ def soaked() -> object:
 
 def stirred_window() -> object:
     """Random gestures by the mouse and the keys in the real window: every 25 of them saved, reloaded and seen again."""
+    return _in_a_window("tests.app.stirring:long", "stirred.json")
+
+
+def sculpted() -> object:
+    """An hour of sculpting in the real window: memory, frames and OpenGL's objects at first and after each quarter."""
+    return _in_a_window("tests.reliability.soak:hour", "hour.json")
+
+
+def _in_a_window(function: str, told: str) -> object:
+    """What a function that drives the window writes to a file of that name."""
     with TemporaryDirectory() as folder:
-        window = [sys.executable, "-m", "tests.app.drive", "tests.app.stirring:long", folder]
+        window = [sys.executable, "-m", "tests.app.drive", function, folder]
         screen = ["xvfb-run", "-a", "-s", "-screen 0 1280x800x24"]
         subprocess.run([*screen, *window], env=surroundings("", Path(folder)), stdout=subprocess.DEVNULL, check=True)
-        return json.loads(Path(folder, "stirred.json").read_text())
+        return json.loads(Path(folder, told).read_text())
 
 
 def _resident() -> int:
@@ -101,7 +111,7 @@ def drawn() -> object:
 
 
 PARTS: dict[str, Callable[[], object]] = {
-    part.__name__: part for part in (killed, damaged, numbers, stopped, soaked, stirred_window, drawn)
+    part.__name__: part for part in (killed, damaged, numbers, stopped, soaked, stirred_window, sculpted, drawn)
 }
 
 if __name__ == "__main__":
