@@ -110,12 +110,14 @@ class Problem:
 @dataclass(frozen=True)
 class ExportSettings:
     """What a mesh is written as, and where. None for unit, size or up: what the format's users expect; for the number of
-    triangles: all that there are."""
+    triangles: all that there are. With a tolerance, in the file's unit, they are as few as that takes at what resolution it
+    takes."""
 
     path: Path
     resolution: int = 256
     method: Method = "cubes"
     target_faces: int | None = None
+    tolerance: float | None = None
     unit: Unit | None = None
     size: float | None = None
     up: Up | None = None

@@ -6,13 +6,16 @@ import io
 from collections.abc import Callable
 from dataclasses import replace
 from time import perf_counter
-from typing import Any, BinaryIO, cast
+from typing import TYPE_CHECKING, Any, BinaryIO, cast
 
 from hqmodel import files
 from hqmodel.model import Scene
 
 from .asks import Exported, ExportSettings
 from .jobs import Job
+
+if TYPE_CHECKING:
+    from hqmodel.mesh import Mesh
 
 
 class ExportJob(Job[Exported]):
@@ -33,9 +36,10 @@ class ExportJob(Job[Exported]):
         if settings.method == "radial":
             body = mesh.radial_quads(self._scene, settings.resolution, self._meshing)
         else:
-            mesh.must_have_room(self._scene, settings.resolution, settings.target_faces is not None)
-            body = mesh.polygonize(self._scene, settings.resolution, self._meshing, target_faces=settings.target_faces)
+            body = self._polygonized()
         report = mesh.report(body, lambda: self._report(0.9, "Measuring"))
+        if settings.tolerance is not None:
+            report["within_tolerance"] = (mesh.sized(body, settings.size).surface_error or 0.0) <= settings.tolerance
         fitted = mesh.fitted(body, suffix, unit=settings.unit, size=settings.size, up=settings.up)
         if not settings.colors:
             fitted = replace(fitted, colors=None)
@@ -46,6 +50,16 @@ class ExportJob(Job[Exported]):
             mesh.write(fitted, cast(BinaryIO, _Watched(stream, self._report)), suffix, self._scene.name)
             self._report(1.0, "Writing")
         return Exported(settings.path, perf_counter() - started, report)
+
+    def _polygonized(self) -> Mesh:
+        from hqmodel import mesh
+
+        settings, scene = self.settings, self._scene
+        if settings.tolerance is None:
+            mesh.must_have_room(scene, settings.resolution, reducing=settings.target_faces is not None)
+            return mesh.polygonize(scene, settings.resolution, self._meshing, target_faces=settings.target_faces)
+        mesh.must_have_room(scene, mesh.USUAL_RESOLUTION, reducing=True)
+        return mesh.polygonize(scene, progress=self._meshing, tolerance=mesh.in_world(scene, settings.tolerance, settings.size))
 
     def _meshing(self, share: float, doing: str) -> None:
         self._report(0.9 * share, doing)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from pathlib import Path
 
+import numpy as np
 import pytest
 import trimesh
 
@@ -41,6 +42,19 @@ def test_an_export_writes_the_body_and_reports_it(session: Session, tmp_path: Pa
     assert written.is_watertight
     assert max(written.extents) == pytest.approx(50.0)
     assert len(written.faces) == told.report["faces"]
+
+
+def test_an_export_within_a_tolerance_takes_few_triangles(session: Session, tmp_path: Path) -> None:
+    path = tmp_path / "ball.stl"
+    working.export(session, ExportSettings(path, unit="mm", size=50.0, tolerance=0.5))
+    ended(session)
+    told = session.dialogs[-1]
+    assert isinstance(told, Exported)
+    assert told.report["within_tolerance"] is True
+    written = trimesh.load_mesh(path)
+    assert len(written.faces) < 1000
+    away = abs(np.linalg.norm(np.concatenate([written.triangles_center, written.vertices]), axis=1) - 25.0)
+    assert 0.2 < away.max() <= 0.5
 
 
 def test_the_scene_can_change_meanwhile(session: Session, tmp_path: Path) -> None:

@@ -34,6 +34,8 @@ _PURPOSES: dict[str, tuple[str, Unit | None, float | None, int | None]] = {
 _UPS: dict[Up | None, str] = {"z": "z up", "y": "y up"}
 _RESOLUTIONS = 16, 1024
 _FACES, _USUAL_FACES = (100, 1_000_000), 20_000
+# The usual distance from the true surface, as a share of the longest side.
+_USUAL_SHARE = 1e-3
 
 
 def draw(dialog: Dialog) -> list[Intent]:
@@ -50,9 +52,12 @@ def draw(dialog: Dialog) -> list[Intent]:
     path, browsing = file(settings.path)
     settings = replace(settings, path=path)
     settings = replace(settings, method=combo("Made by", settings.method, _METHODS))
+    adaptive = settings.method == "cubes" and settings.tolerance is not None
+    imgui.begin_disabled(adaptive)
     settings = _resolution(settings)
+    imgui.end_disabled()
     imgui.begin_disabled(settings.method == "radial")
-    settings = _reduction(settings)
+    settings = _tolerance(_reduction(settings))
     imgui.end_disabled()
     settings = _size(settings)
     usual = f"As usual for the format: {UP_AXIS.get(chosen, 'z')} up"
@@ -62,7 +67,7 @@ def draw(dialog: Dialog) -> list[Intent]:
     if problem:
         imgui.text_colored(ERROR, problem)
     else:
-        imgui.text_disabled((dialog.told(settings) if settings.method == "cubes" else "") or " ")
+        imgui.text_disabled((dialog.told(settings) if settings.method == "cubes" and not adaptive else "") or " ")
     pressed = buttons(["Export", "Cancel"], enabled=not problem)
     changed: list[Intent] = [] if settings == dialog.settings else [Adjust(replace(dialog, settings=settings))]
     if browsing:
@@ -135,6 +140,20 @@ def _reduction(settings: ExportSettings) -> ExportSettings:
     return replace(settings, target_faces=faces if wanted else None)
 
 
+def _tolerance(settings: ExportSettings) -> ExportSettings:
+    """How far from the true surface the mesh may be, instead of how fine and of how many triangles it is."""
+    label("Within")
+    before, length = settings.tolerance is not None, settings.tolerance or _USUAL_SHARE * (settings.size or 1.0)
+    _, wanted = imgui.checkbox("##within", before)
+    imgui.same_line()
+    imgui.begin_disabled(not wanted)
+    imgui.set_next_item_width(-1)
+    _, length = imgui.input_double("##tolerance", length, 0.0, 0.0, f"%.6g {settings.unit or ''} of the true surface")
+    imgui.end_disabled()
+    fewer = None if wanted and not before else settings.target_faces
+    return replace(settings, tolerance=length if wanted and fewer is None else None, target_faces=fewer)
+
+
 def _size(settings: ExportSettings) -> ExportSettings:
     """The unit, and how long the longest side shall be in it."""
     unit = combo("Unit", settings.unit or "", _UNITS)
@@ -162,6 +181,8 @@ def _problem(settings: ExportSettings, endings: list[str]) -> str:
         return f"The file's ending must be one of {', '.join(endings)}"
     if not settings.path.parent.is_dir():
         return f"There is no folder {settings.path.parent}"
+    if settings.tolerance is not None and not settings.tolerance > 0:
+        return "The distance from the true surface must be above 0"
     if settings.size is not None and not settings.size > 0:
         return "The longest side must be above 0"
     return ""
