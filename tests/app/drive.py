@@ -111,6 +111,7 @@ def main(target: str, folder: Path, preset: Path | None = None) -> int:
         io = engine.get_io(test_engine)
         io.config_run_speed = engine.TestRunSpeed.fast
         io.config_log_to_tty = True
+        io.config_watchdog_warning = io.config_watchdog_kill_test = 86400.0  # who started this process says how long it may take
         io.config_fixed_delta_time = 1 / 60  # a double click stays one on a machine that is busy
         test = engine.register_test(test_engine, "hqmodel", name)
         test.test_func = drive

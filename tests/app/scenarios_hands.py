@@ -315,6 +315,13 @@ def gizmo_and_cube(hands: Hands) -> None:
     assert z > 0.2
     assert max(abs(x), abs(y)) < 1e-5
     once(hands, "Move", before)
+    goto(hands, aim(hands).pixel((0, 0, z)) + 45 * along)
+    hands.keys(Key._1)
+    hands.ctx.mouse_click()
+    hands.settle()
+    assert session.selection.strip == 1, "where its arrow was the mouse is the next tool's"
+    session.apply([Select(0), Equip(Kit("move"))])
+    hands.settle()
     camera = session.view.camera
     size = aim(hands).size
     em = imgui.get_font_size()

@@ -17,6 +17,7 @@ from hqmodel.app import filing
 from hqmodel.app.asks import Open
 from hqmodel.app.hands.hand import known_handles
 from hqmodel.app.intents import Do, Drop
+from hqmodel.app.tools.reach import pivot
 from hqmodel.field import Terms, value
 
 from .drive import Hands
@@ -25,6 +26,7 @@ from .scenarios_hands import aim, goto, move
 Key = imgui.Key
 CTRL, SHIFT, ALT = Key.mod_ctrl, Key.mod_shift, Key.mod_alt
 TOOLS = [Key._1, Key._2, Key._3, Key._4, Key._5, Key._6, Key._7, Key.b]
+ARRANGING = ("move", "turn", "scale")
 MODAL = [Key.g, Key.r, Key.s, Key.h]
 AXES = [Key.x, Key.y, Key.z]
 KEYS = [Key.left_bracket, Key.right_bracket, CTRL | Key.d, Key.x, CTRL | Key.z, CTRL | SHIFT | Key.z, Key.a, ALT | Key.a]
@@ -65,6 +67,9 @@ def _drawn(hands: Hands, chance: Generator) -> None:
     """A tool's drag over the body, with keys held or pressed meanwhile; a click where it doesn't move."""
     hands.keys(_one(chance, TOOLS))
     goto(hands, _on_the_body(hands, chance))
+    if hands.session.kit.tool in ARRANGING and hands.session.selection.shapes:
+        middle = aim(hands).pixel(pivot(hands.session.scene, hands.session.selection.shapes))
+        goto(hands, np.clip(middle + chance.uniform(-30, 30, 2), 60, np.array(aim(hands).size) - 60))
     _dragged(hands, chance)
 
 

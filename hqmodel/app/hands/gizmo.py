@@ -37,22 +37,28 @@ _SIZE = 0.2
 
 @dataclass
 class Gizmo:
-    """What is being moved by it: the scene and the pivot it began with, and its matrix as ImGuizmo has it now."""
+    """What is being moved by it: the scene and the pivot it began with, and its matrix as ImGuizmo has it now.
+
+    `shown`: whether it was, in the last frame; ImGuizmo itself goes on to claim the mouse where one was.
+    """
 
     before: Scene | None = None
     pivot: tuple[float, float, float] = (0.0, 0.0, 0.0)
     matrix: Array | None = None
+    shown: bool = False
 
     @property
     def busy(self) -> bool:
         """Whether the mouse is its own."""
-        return guizmo.is_using() or guizmo.is_over() or guizmo.is_using_view_manipulate() or guizmo.is_view_manipulate_hovered()
+        ours = self.shown and (guizmo.is_using() or guizmo.is_over())
+        return ours or guizmo.is_using_view_manipulate() or guizmo.is_view_manipulate_hovered()
 
     def draw(self, session: Session, aim: Aim, corner: imgui.ImVec2) -> list[Intent]:
         """The gizmo of the tool in hand, where shapes are selected."""
         tool, chosen = session.kit.tool, session.selection.shapes
-        if tool not in _OPERATIONS or not chosen or session.held:
-            self.before = None
+        self.shown = tool in _OPERATIONS and bool(chosen) and session.held is None
+        if not self.shown:
+            self.before = self.matrix = None
             return []
         view, projection = _matrices(session, aim)
         guizmo.begin_frame()
