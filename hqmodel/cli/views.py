@@ -24,9 +24,8 @@ View = Annotated[
 ]
 Azimuth = Annotated[float | None, typer.Option("--azimuth", metavar="DEGREES", help="From the front (0) to the right (90).")]
 Elevation = Annotated[float | None, typer.Option("--elevation", metavar="DEGREES", help="From below (-90) to above (90).")]
-Mode = Annotated[
-    str, typer.Option("--mode", metavar="MODE", help="clay, porcelain, metal, studio, normals, curvature, strips or depth.")
-]
+MODE_HELP = "clay, porcelain, metal, studio, normals, curvature, strips or depth."
+Mode = Annotated[str, typer.Option("--mode", metavar="MODE", help=MODE_HELP)]
 
 
 def pixels(size: str) -> tuple[int, int]:
@@ -56,12 +55,12 @@ def looking(camera: Camera, view: str | None, azimuth: float | None, elevation: 
     return camera
 
 
-def drawable(mode: str) -> None:
-    """Fault for what is no mode of drawing."""
+def drawable(mode: str, *more: str) -> None:
+    """Fault for what is no mode of drawing; there may be more than the preview's own."""
     from hqmodel import gpu  # late: a preset at fault is told at once
 
     if mode not in gpu.MODES:
-        raise Fault(f"--mode: expected {', '.join(gpu.MODES)}, got {shown(mode)}", USAGE)
+        raise Fault(f"--mode: expected {', '.join((*gpu.MODES, *more))}, got {shown(mode)}", USAGE)
 
 
 def _angle(option: str, value: float, most: float) -> float:

@@ -54,7 +54,9 @@ def test_each_mode_is_another_picture(hqmodel: Command) -> None:
         (["-o", "a.png", "--size", "0x10"], "--size: expected WxH in pixels, each from 1 to 8192, got '0x10'"),
         (["-o", "a.png", "--size", "10x9999"], "--size: expected WxH in pixels, each from 1 to 8192, got '10x9999'"),
         (["-o", "a.png", "--view", "up"], "--view: expected front, right, back, left, top, bottom, iso, got 'up'"),
-        (["-o", "a.png", "--mode", "wax"], f"--mode: expected {', '.join(MODES)}, got 'wax'"),
+        (["-o", "a.png", "--mode", "wax"], f"--mode: expected {', '.join(MODES)}, landscape, got 'wax'"),
+        (["-o", "a.png", "--mode", "landscape"], "--mode: expected another one than landscape for a solid preset"),
+        (["-o", "a.png", "--mode", "landscape", "--cut", "x=0"], "--cut: expected another --mode with it than landscape"),
         (["-o", "a.png", "--elevation", "91"], "--elevation: expected degrees from -90 to 90, got 91.0"),
         (["-o", "a.png", "--azimuth", "nan"], "--azimuth: expected degrees from -360 to 360, got nan"),
     ],
@@ -78,3 +80,28 @@ def test_a_cut_opens_the_body(hqmodel: Command) -> None:
 def test_a_cut_that_is_none_is_told(hqmodel: Command) -> None:
     expected = "--cut: expected a plane such as z=0.2 or 1,0,-1=0.5, got 'w=1'\n"
     assert hqmodel("render", "ball.json", "-o", "a.png", "--cut", "w=1") == (2, "", expected)
+
+
+def test_a_landscape_shows_the_hills_that_rise_over_the_level(hqmodel: Command) -> None:
+    """The higher the level, the more of its bluish plane is seen; above all hills, all of it is, and all land under it."""
+    plane = []
+    for level in (0.1, 0.5, 0.9, 3.0):
+        options = ["--mode", "landscape", "--size", "120x90", "--set", f"level={level}"]
+        ended = hqmodel("render", "fig17-two-hills", "-o", "land.png", *options)
+        assert (ended.status, ended.err) == (0, "")
+        pixels = picture("land.png")
+        assert pixels.shape == (90, 120, 3)
+        plane.append(np.count_nonzero(pixels[..., 2] - pixels[..., 0] > 8))
+    assert plane[0] < plane[1] < plane[2]
+    assert plane[3] > 0
+
+
+def test_a_landscape_is_seen_from_where_one_likes_but_below(hqmodel: Command) -> None:
+    land = ["render", "fig16-hill", "--mode", "landscape", "--size", "64x64"]
+    angles = [("0", "30"), ("90", "30"), ("24", "90")]
+    for azimuth, elevation in angles:
+        assert hqmodel(*land, "-o", f"{azimuth}.png", "--azimuth", azimuth, "--elevation", elevation).status == 0
+    assert len({picture(f"{azimuth}.png").tobytes() for azimuth, _ in angles}) == len(angles)
+    ended = hqmodel(*land, "-o", "below.png", "--elevation", "-5")
+    assert (ended.status, ended.err) == (2, "--elevation: expected 0 or more with --mode landscape, got -5\n")
+    assert "below.png" not in files()
