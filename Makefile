@@ -1,5 +1,5 @@
 # make run    sets everything up and opens the modeller (without a display it renders and exports a preset into out/)
-# make test   sets everything up and runs every check
+# make test   sets everything up and runs every check                make test-oldest  its core with the oldest dependencies
 # make bench  runs the benchmarks        make reliability  the long runs behind docs/reliability.md
 # make clean  removes what these made
 
@@ -16,7 +16,7 @@ DISPLAYS := xvfb xauth xdotool
 SUITABLE := -c 'import sys, ensurepip; sys.exit(sys.version_info < (3, 11))' 2>/dev/null
 NEEDS_PYTHON := $(if $(wildcard $(BIN)/python),,$(shell for p in $(PYTHONS); do $$p $(SUITABLE) && exit; done; echo python3-venv))
 
-.PHONY: run test demo bench reliability pictures goldens schema clean system-run system-test
+.PHONY: run test test-oldest demo bench reliability pictures goldens schema clean system-run system-test
 .DEFAULT_GOAL := run
 
 run: system-run $(VENV)/.installed
@@ -38,6 +38,13 @@ test: system-test $(VENV)/.installed-for-tests
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/python -m pytest -n 2
+
+# The core's tests with the oldest versions that pyproject.toml permits, in an environment of its own.
+OLDEST := $(VENV)-oldest
+CORE := $(addprefix tests/,field model edit files mesh outline cli gpu test_memory.py test_package.py)
+
+test-oldest: system-test $(OLDEST)/.installed
+	$(OLDEST)/bin/python -m pytest -n 2 $(CORE)
 
 bench: system-run $(VENV)/.installed-for-benchmarks
 	$(BIN)/python -m benchmarks.meshers --cells 256 384 512
@@ -63,7 +70,7 @@ schema: $(VENV)/.installed
 	$(BIN)/python -c "from hqmodel.files import schema_text; print(schema_text(), end='')" > presets/hqmodel-1.schema.json
 
 clean:
-	rm -rf $(VENV) out build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache
+	rm -rf $(VENV) $(OLDEST) out build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 # The environment; the stamps make a second run instant.
@@ -82,6 +89,16 @@ $(VENV)/.installed: pyproject.toml | $(VENV)/bin/python
 $(VENV)/.installed-for-tests: pyproject.toml | $(VENV)/bin/python
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[test]"
 	@touch $@ $(VENV)/.installed
+
+# By an old Python too, if there is one: of old packages there is nothing ready-made for later ones.
+$(OLDEST)/.installed: pyproject.toml tests/oldest.py
+	@for python in python3.11 python3.12 $(PYTHONS); do \
+		if $$python $(SUITABLE); then \
+			echo "Making $(OLDEST) with $$($$python --version)"; $$python -m venv --clear $(OLDEST); break; \
+		fi; \
+	done
+	$(OLDEST)/bin/python -m pip install --quiet --disable-pip-version-check -e ".[test]" $$($(OLDEST)/bin/python tests/oldest.py)
+	@touch $@
 
 $(VENV)/.installed-for-benchmarks: pyproject.toml | $(VENV)/bin/python
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[bench]"

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 import hqmodel
+
+from .oldest import oldest
 
 ROOT = Path(__file__).parents[1]
 HEAVY = ("moderngl", "glfw", "imgui_bundle", "trimesh", "scipy")
@@ -44,6 +48,13 @@ def test_neither_opengl_nor_a_window_nor_a_mesher_comes_along(code: str) -> None
 
 def test_meshing_needs_no_opengl() -> None:
     assert loaded_by("import hqmodel; hqmodel.polygonize").isdisjoint({"moderngl", "glfw", "imgui_bundle"})
+
+
+def test_dependencies_have_a_range_whose_lower_end_can_be_tested() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    for dependency, pinned in zip(project["dependencies"], oldest(), strict=True):
+        assert re.fullmatch(r"[a-z-]+>=[\d.]+,<\d+", dependency)
+        assert pinned == dependency.partition(",")[0].replace(">=", "==")
 
 
 def test_the_public_names_are_there() -> None:
