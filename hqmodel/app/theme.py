@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from imgui_bundle import imgui
+from imgui_bundle import hello_imgui, imgui
 
 Color = tuple[float, float, float, float]
 
 ACCENT: Color = (0.86, 0.52, 0.28, 1.0)
+
+
+def enlarged(percent: int) -> float:
+    """How many pixels one of a usual screen is here, with everything in the window so many hundredths of its usual size."""
+    return percent / 100 * hello_imgui.dpi_window_size_factor()
 
 
 def apply(name: str, scale: float, size: float) -> None:

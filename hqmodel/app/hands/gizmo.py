@@ -15,6 +15,7 @@ from hqmodel.model import Camera, Scene, vector
 
 from ..intents import Grab, Intent, Look, Release, Show
 from ..session import Session
+from ..theme import enlarged
 from ..tools.aim import Aim
 from ..tools.arranging import SCALE_STEP, TURN_STEP, Move
 from ..tools.reach import pivot
@@ -33,6 +34,17 @@ _LABELS = {"move": "Move", "turn": "Turn", "scale": "Scale"}
 _CUBE, _INSET = 5.5, 0.4
 # The gizmo's arrows, as a share of the viewport.
 _SIZE = 0.2
+# Of its lines and what they end with, in pixels of a usual screen.
+_WIDTHS = {
+    "translation_line_thickness": 3.0,
+    "translation_line_arrow_size": 6.0,
+    "rotation_line_thickness": 2.0,
+    "rotation_outer_line_thickness": 3.0,
+    "scale_line_thickness": 3.0,
+    "scale_line_circle_size": 6.0,
+    "hatched_axis_line_thickness": 6.0,
+    "center_circle_size": 6.0,
+}
 
 
 @dataclass
@@ -66,6 +78,8 @@ class Gizmo:
         guizmo.set_rect(corner.x, corner.y, *map(float, aim.size))
         guizmo.set_orthographic(aim.camera.orthographic)
         guizmo.set_gizmo_size_clip_space(_SIZE)
+        for name, width in _WIDTHS.items():
+            setattr(guizmo.get_style(), name, width * enlarged(session.preferences.percent))
         start = np.eye(4)
         start[:3, 3] = pivot(session.scene, chosen) if self.before is None else self.pivot
         held = start if self.matrix is None else self.matrix

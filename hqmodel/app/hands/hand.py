@@ -13,6 +13,7 @@ from hqmodel.model import Scene
 from ..intents import Choose, Intent, Look, Pull, Release, Select, Take
 from ..navigation import Button, Pointer, navigated
 from ..session import Session
+from ..theme import enlarged
 from ..tools import reach
 from ..tools.aim import Aim, Pixels
 from ..tools.gesture import Gesture, Held
@@ -120,7 +121,7 @@ def known_handles(session: Session, aim: Aim) -> Handles | None:
     shape, strip, image = session.selection.active, session.selection.strip, session.selection.image
     if session.kit.tool != "faces" or shape is None or strip is None:
         return None
-    return handles(session.scene, shape, strip, aim, session.preferences.percent / 100, image)
+    return handles(session.scene, shape, strip, aim, enlarged(session.preferences.percent), image)
 
 
 def _pressed(session: Session, hand: Hand, aim: Aim) -> list[Intent]:

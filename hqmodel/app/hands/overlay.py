@@ -25,11 +25,12 @@ SHADE: Color = (0.0, 0.0, 0.0, 0.55)
 
 
 class Pen:
-    """Draws on the window's list in pixels of the viewport, which is so large (width, height)."""
+    """Draws on the window's list in pixels of the viewport, which is so large (width, height); lines as wide as on a usual
+    screen, whose pixels are so large here."""
 
-    def __init__(self, corner: imgui.ImVec2, size: tuple[int, int]) -> None:
+    def __init__(self, corner: imgui.ImVec2, size: tuple[int, int], pixel: float) -> None:
         self._list = imgui.get_window_draw_list()
-        self._corner, self._size = corner, size
+        self._corner, self._size, self._pixel = corner, size, pixel
         self.em = imgui.get_font_size()
 
     def line(self, points: NDArray[np.float64], color: Color, width: float = 1.5, closed: bool = False) -> None:
@@ -37,7 +38,7 @@ class Pen:
         ends = np.vstack([points, points[:1]]) if closed else points
         for a, b in pairwise(ends):
             if np.all(np.isfinite(a)) and np.all(np.isfinite(b)):
-                self._list.add_line(self._at(a), self._at(b), imgui.get_color_u32(color), width)
+                self._list.add_line(self._at(a), self._at(b), imgui.get_color_u32(color), width * self._pixel)
 
     def area(self, points: NDArray[np.float64], color: Color) -> None:
         """A convex polygon (n, 2)."""
@@ -46,7 +47,7 @@ class Pen:
 
     def dots(self, points: NDArray[np.float64], color: Color) -> None:
         """A small square at each pixel (n, 2)."""
-        ink, half = imgui.get_color_u32(color), 1.0
+        ink, half = imgui.get_color_u32(color), self._pixel
         left, top = self._corner.x, self._corner.y
         for x, y in points.tolist():
             self._list.add_rect_filled((left + x - half, top + y - half), (left + x + half, top + y + half), ink)
@@ -128,11 +129,11 @@ def _handles(pen: Pen, known: Handles, aim: Aim, part: str | None) -> None:
     if len(known.face.polygon):
         pen.line(aim.pixel(known.face.polygon), (*ACCENT[:3], 0.8), 1.5, closed=True)
     size = known.scale
-    pen.line(known.ring, SHADE, 4.0 * size, closed=True)
-    pen.line(known.ring, colors["tilt"], 2.0 * size, closed=True)
+    pen.line(known.ring, SHADE, 4.0, closed=True)
+    pen.line(known.ring, colors["tilt"], 2.0, closed=True)
     start, tip = known.arrow
-    pen.line(known.arrow, SHADE, 5.0 * size)
-    pen.line(known.arrow, colors["push"], 3.0 * size)
+    pen.line(known.arrow, SHADE, 5.0)
+    pen.line(known.arrow, colors["push"], 3.0)
     along = (tip - start) / max(float(np.hypot(*(tip - start))), 1e-6)
     aside = np.array([-along[1], along[0]])
     pen.area(np.array([tip + 9 * size * along, tip + 6 * size * aside, tip - 6 * size * aside]), colors["push"])

@@ -9,6 +9,7 @@ from ..hands.hand import Hand, Picture, free
 from ..hands.holding import holding
 from ..intents import Intent, Resize
 from ..session import Session
+from ..theme import enlarged
 from ..tools.aim import Aim
 
 _ANY = imgui.ButtonFlags_.mouse_button_left | imgui.ButtonFlags_.mouse_button_middle | imgui.ButtonFlags_.mouse_button_right
@@ -29,7 +30,7 @@ def draw(session: Session, hand: Hand, picture: Picture) -> list[Intent]:
         imgui.set_item_key_owner(imgui.Key.mouse_wheel_y)
         imgui.set_item_key_owner(imgui.Key.mouse_wheel_x)
         intents += holding(hand, session.held) if session.held else free(session, hand, picture, aim, corner)
-    pen = overlay.Pen(corner, points)
+    pen = overlay.Pen(corner, points, enlarged(session.preferences.percent))
     if session.cloud is not None and not session.cloud_hidden:
         cloud.draw(pen, aim, session.cloud)
     grid.draw(session, aim, pen)
