@@ -47,6 +47,7 @@ def simplified(
     place: Place | None = None,
     most: float = inf,
     near: Near | None = None,
+    still: Callable[[], None] = lambda: None,
 ) -> tuple[Array, Triangles]:
     """Vertices and faces of a mesh, (V, 3) and (F, 3), with `target` faces or one less; with more where that can't be reached.
 
@@ -57,8 +58,9 @@ def simplified(
     `place` brings points (n, 3) onto the surface and leaves held coordinates, (n, 3), alone; points within a flat part all
     whose vertices are held are not asked for. `most` is about how far faces may come to lie from the surface, in the unit of
     the mesh. `near` tells which triangles, by their corners (n, 3) each, lie near enough to the surface to be made.
+    `still` is called again and again; whatever it raises ends the work.
     """
-    work = _Work.of(vertices, faces, held, mirrored, most)
+    work = _Work.of(vertices, faces, held, mirrored, most, still)
     changed = True
     while (left := work.count - target) > 0:
         edges = work.cheapest(left)
@@ -87,18 +89,22 @@ class _Work:
     cost: Array
     centre: Array
     worst: float
+    still: Callable[[], None]
     share: float = _SHARE
 
     @classmethod
-    def of(cls, vertices: Array, faces: Triangles, held: Bools, mirrored: tuple[int, ...], most: float) -> _Work:
+    def of(
+        cls, vertices: Array, faces: Triangles, held: Bools, mirrored: tuple[int, ...], most: float, still: Callable[[], None]
+    ) -> _Work:
         """The mesh as it is given."""
         kind = np.append(_kinds(vertices, faces, held, mirrored), _LOCKED)
-        whole, odd = closed(faces, kind[:-1] & _PLANES)
+        still()
+        whole, odd = closed(faces, kind[:-1] & _PLANES, still)
         kind[odd] |= _LOCKED
         centre = vertices.mean(axis=0)
         points = np.concatenate([vertices, centre[None]])
-        forms = quadrics(points - centre, faces)
-        work = cls(points, forms, kind, whole, np.empty(whole.shape), centre, (most / _WORST) ** 2)
+        forms = quadrics(points - centre, faces, still)
+        work = cls(points, forms, kind, whole, np.empty(whole.shape), centre, (most / _WORST) ** 2, still)
         work.price(np.arange(whole.size))
         return work
 
@@ -111,6 +117,7 @@ class _Work:
         """Work out what edges cost."""
         vertex, cost = self.faces.ravel(), self.cost.ravel()
         for some in np.array_split(edges, len(edges) // _AT_ONCE + 1):
+            self.still()
             start, end = vertex[some], vertex[following(some, self.faces)]
             rows = np.flatnonzero((start < end) & self._allowed(start, end))
             cost[some] = inf
@@ -154,7 +161,9 @@ class _Work:
         dearest = float(self.cost.ravel()[edges].max())
         edges, ends = apart(self.faces, edges, len(self.kind))
         start, end = vertex[edges], vertex[following(edges, self.faces)]
+        self.still()
         stars = Stars.of(self.faces, ends)
+        self.still()
         points, good = self._settled(stars, start, end, dearest, place, near)
         self.cost.ravel()[edges[~good]] = inf
         takes = np.where(good, np.count_nonzero(stars.across != stars.apex, axis=1), 0)
@@ -166,6 +175,7 @@ class _Work:
         corner = stars.corner[moved]
         vertex[corner] = start[stars.edge[moved]]
         self.price(np.concatenate([corner, following(corner, self.faces, 2)]))
+        self.still()
         keep = np.ones(self.faces.shape[1], dtype=bool)
         keep[stars.lost[good]] = False
         self.faces, self.cost = self.faces.compress(keep, axis=1), self.cost.compress(keep, axis=1)
@@ -183,6 +193,7 @@ class _Work:
         best, _ = self.merged(start, end)
         if place is not None:
             asked = kind & _WITHIN == 0
+            self.still()
             found = place(best[asked], _unpacked(kind[asked]))
             way, length = found - best[asked], self.points[end[asked]] - self.points[start[asked]]
             best[asked] = np.where((dots(way, way) <= dots(length, length))[:, None], found, np.nan)  # not if it strays
@@ -191,6 +202,7 @@ class _Work:
         simple = stars.simple()
         tries = (best, kind, inf), (self.points[start], self.kind[start], dearest), (self.points[end], self.kind[end], dearest)
         for trial, its_kind, limit in tries:
+            self.still()
             off, also_off = error(one, trial - self.centre), error(other, trial - self.centre)
             cheap = (off <= self.worst * area(one)) & (also_off <= self.worst * area(other)) & (off + also_off <= limit)
             may = stars.fair(self.points, trial, simple & ~good & (its_kind == kind) & cheap)

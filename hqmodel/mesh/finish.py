@@ -76,7 +76,7 @@ def finished(
     error = 0.0
     if tolerance is not None or share < len(faces):
         if tolerance is not None:
-            vertices, faces, error = adapted(Surface(terms, planes, grid.cell), vertices, faces, off, mirrored, tolerance, still)
+            vertices, faces, error = adapted(Surface(terms, planes, grid.cell, still), vertices, faces, off, mirrored, tolerance)
         else:
             vertices, faces = _fewer(terms, grid, vertices, faces, mirrored, planes, share, still)
         within = np.ones(len(vertices), dtype=bool)
@@ -109,10 +109,9 @@ def _fewer(
         held[:, axis] |= vertices[:, axis] == plane
 
     def place(points: Array, held: NDArray[np.bool_]) -> Array:
-        still()
         return to_surface(terms, points, grid.cell, 5, held)[0]
 
-    return simplified(vertices, faces, target, held, mirrored, place)
+    return simplified(vertices, faces, target, held, mirrored, place, still=still)
 
 
 def _balance(

@@ -6,6 +6,8 @@ the upper half of its rows, then b, then c of x.Ax + 2 b.x + c. The trace of A i
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,10 +17,11 @@ _PRODUCTS = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2), (0, 3), (1, 3), (2,
 _AT_ONCE = 1 << 14
 
 
-def quadrics(vertices: Array, faces: Triangles) -> Array:
-    """Of each vertex, (V, 10): the planes of its faces, each for a third of the face's area."""
+def quadrics(vertices: Array, faces: Triangles, still: Callable[[], None]) -> Array:
+    """Of each vertex, (V, 10): the planes of its faces, each for a third of the face's area. `still` is called now and then."""
     total = np.zeros((len(vertices), 10))
     for some in np.array_split(faces, len(faces) // _AT_ONCE + 1):
+        still()
         a, b, c = (vertices.take(corner, axis=0) for corner in some.T)
         normals = crosses(b - a, c - a)
         size = np.maximum(lengths(normals), 1e-300)

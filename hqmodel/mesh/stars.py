@@ -34,18 +34,20 @@ def following(corners: Corners, faces: Numbers, steps: int = 1) -> Corners:
     return (corners + steps * faces.shape[1]) % faces.size
 
 
-def closed(faces: Triangles, planes: Bits) -> tuple[Numbers, Corners]:
+def closed(faces: Triangles, planes: Bits, still: Callable[[], None]) -> tuple[Numbers, Corners]:
     """Faces (F, 3) as columns, and after them a cone's over the border, whose apex, the last of each, is one more vertex.
 
     And the vertices about which that is no surface, or would not be together with its image in mirror planes: `planes` (V,)
-    has a bit for each that a vertex lies in. Only there may the border be.
+    has a bit for each that a vertex lies in. Only there may the border be. `still` is called now and then.
     """
     apex = np.int64(len(planes))
     start, end = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
     forth, back = np.sort(start * apex + end), np.sort(end * apex + start)
+    still()
     border = forth[np.take(back, np.searchsorted(back, forth), mode="clip") != forth]
     a, b = np.divmod(border, apex)
     stray = (planes[a] & planes[b] == 0) | (np.bincount(a, minlength=apex)[a] > 1) | (np.bincount(b, minlength=apex)[b] > 1)
+    still()
     flush = planes[start] & planes[end] > 0
     start, end = start[flush], end[flush]
     inner = np.intersect1d(start * apex + end, end * apex + start)

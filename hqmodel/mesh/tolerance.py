@@ -56,7 +56,6 @@ def adapted(
     off: NDArray[np.float32],
     mirrored: tuple[int, ...],
     tolerance: float,
-    still: Callable[[], None],
 ) -> tuple[Array, Triangles, float]:
     """Vertices and faces of a mesh within `tolerance`, and how far it is off at most as measured, in world units.
 
@@ -65,17 +64,16 @@ def adapted(
     away = np.abs(off).astype(float)
     doubtful = away > _DOUBTFUL * tolerance
     away[doubtful] = surface.off(vertices, faces[doubtful])
-    stages = [_refined(surface, vertices, faces, away, _BEFORE * tolerance, still)]
+    stages = [_refined(surface, vertices, faces, away, _BEFORE * tolerance)]
 
     def place(points: Array, held: Bools) -> Array:
-        still()
         return to_surface(surface.terms, points, surface.cell, _STEPS, held)[0]
 
     # First as far as quadrics alone warrant it: that is quick, and little is left to measure.
     for most, near in ((_SURELY, None), (_PERHAPS, surface.near(_MEANWHILE * tolerance))):
         vertices, faces, _ = stages[-1]
-        fewer = simplified(vertices, faces, 0, surface.flat(vertices), mirrored, place, most * tolerance, near)
-        stages.append(_refined(surface, *fewer, surface.off(*fewer), _AT_LAST * tolerance, still))
+        fewer = simplified(vertices, faces, 0, surface.flat(vertices), mirrored, place, most * tolerance, near, surface.still)
+        stages.append(_refined(surface, *fewer, surface.off(*fewer), _AT_LAST * tolerance))
     errors = [float(np.max(away, initial=0.0)) for _, _, away in stages]
     best = max(stage for stage, error in enumerate(errors) if error <= max(tolerance, errors[0]))
     return *stages[best][:2], errors[best]
@@ -101,11 +99,15 @@ def finer(cells: int, error: float, tolerance: float) -> int:
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """The true surface, where a grid of cells of size `cell` found it, cut off or mirrored in `planes` (axis, coordinate)."""
+    """The true surface, where a grid of cells of size `cell` found it, cut off or mirrored in `planes` (axis, coordinate).
+
+    `still` is called again and again; whatever it raises ends the work.
+    """
 
     terms: Terms
     planes: list[Plane]
     cell: float
+    still: Callable[[], None]
 
     def flat(self, points: Array) -> Bools:
         """Which coordinates (n, 3) of points lie in a plane."""
@@ -134,6 +136,7 @@ class Surface:
             rows = np.flatnonzero(parts == number)
             lattice = _lattice(int(number))
             for some in np.array_split(rows, len(rows) * len(lattice) // _AT_ONCE + 1):
+                self.still()
                 result[some] = self._measured(corners[:, some], lattice, _STEPS)
         return result
 
@@ -162,12 +165,10 @@ def _lattice(parts: int) -> Array:
     return weights[(weights.min(axis=1) >= 0) & (weights.max(axis=1) < parts)] / parts
 
 
-def _refined(
-    surface: Surface, vertices: Array, faces: Triangles, off: Array, most: float, still: Callable[[], None]
-) -> tuple[Array, Triangles, Array]:
+def _refined(surface: Surface, vertices: Array, faces: Triangles, off: Array, most: float) -> tuple[Array, Triangles, Array]:
     """The mesh with faces split that are further off than `most`, and how far each is; `off` (F,) is that before."""
     for _ in range(_ROUNDS):
-        still()
+        surface.still()
         bad = off > most
         if not bad.any():
             break
