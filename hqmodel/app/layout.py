@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping
 from functools import partial
+from pathlib import Path
 
 from imgui_bundle import hello_imgui, imgui
+
+from hqmodel.files import settings_folder
 
 from .actions import HIDDEN
 from .session import Session
@@ -30,6 +34,16 @@ _SPLITS = (
 _PLAIN = imgui.internal.DockNodeFlagsPrivate_.no_window_menu_button | imgui.internal.DockNodeFlagsPrivate_.no_close_button
 _FIXED = imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse | imgui.WindowFlags_.no_move
 _BARE = imgui.internal.DockNodeFlagsPrivate_.no_tab_bar
+
+
+def kept_in() -> Path | None:
+    """The file where hello_imgui keeps the layout; None in a home that can't be written to: it is not kept then, that is all."""
+    folder = settings_folder()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return None
+    return folder / "window.ini" if os.access(folder, os.W_OK) else None
 
 
 def docking(panels: Mapping[str, Callable[[], None]]) -> hello_imgui.DockingParams:

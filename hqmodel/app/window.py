@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
@@ -11,7 +10,6 @@ from pathlib import Path
 import moderngl
 from imgui_bundle import hello_imgui, imgui
 
-from hqmodel.files import settings_folder
 from hqmodel.gpu import Legend, Seen
 
 from . import filing, layout, native, theme
@@ -85,7 +83,7 @@ class Window:
         params.app_window_params.restore_previous_geometry = True
         params.ini_folder_type = hello_imgui.IniFolderType.absolute_path
         params.ini_filename_use_app_window_title = False
-        ini = _ini()
+        ini = layout.kept_in()
         params.ini_filename, params.ini_disable = str(ini or ""), ini is None
         params.fps_idling.fps_idle = 1 / IDLE_SECONDS
         params.fps_idling.time_active_after_last_event = AWAKE_SECONDS
@@ -242,13 +240,3 @@ class Window:
         if title != self._title:
             glfw.set_window_title(self.window, title)
             self._title = title
-
-
-def _ini() -> Path | None:
-    """Where hello_imgui keeps the layout; None in a home that can't be written to: it is not kept then, that is all."""
-    folder = settings_folder()
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError:
-        return None
-    return folder / "window.ini" if os.access(folder, os.W_OK) else None
