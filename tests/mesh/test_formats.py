@@ -1,4 +1,4 @@
-"""Files read back by other programs: trimesh for all, meshio where it can, the 3MF by its own words."""
+"""Files read back by other programs: trimesh and assimp for all, meshio where it can, the 3MF by its own words."""
 
 from __future__ import annotations
 
@@ -11,10 +11,12 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import assimp_py
 import meshio
 import numpy as np
 import pytest
 import trimesh
+from numpy.typing import NDArray
 
 from hqmodel.mesh import FORMATS, Mesh, MeshError, fitted, polygonize, report, sized, write
 from hqmodel.model import Scene, Shape, Strip, Transform
@@ -35,6 +37,10 @@ def written(mesh: Mesh, suffix: str, name: str = "hqmodel") -> bytes:
     stream = io.BytesIO()
     write(mesh, stream, suffix, name)
     return stream.getvalue()
+
+
+def linear(srgb: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
 
 
 def read(data: bytes, suffix: str) -> Any:
@@ -59,6 +65,21 @@ def test_meshio_reads_the_same_triangles(suffix: str, tmp_path: Path) -> None:
     loaded = meshio.read(path)
     triangles = loaded.points[:, :3][loaded.cells_dict["triangle"]]
     np.testing.assert_allclose(triangles, body().vertices[body().faces], atol=1e-6)
+
+
+@pytest.mark.parametrize("suffix", FORMATS)
+def test_assimp_reads_the_same_triangles_and_colours(suffix: str, tmp_path: Path) -> None:
+    path = tmp_path / f"body{suffix}"
+    path.write_bytes(written(fitted(body(), suffix, up="z"), suffix, "ear"))
+    (loaded,) = assimp_py.import_file(str(path), 0).meshes
+    corners = np.array(loaded.indices).ravel()
+    points = np.array(loaded.vertices).reshape(-1, 3)[corners]
+    np.testing.assert_allclose(points.reshape(-1, 3, 3), body().vertices[body().faces], atol=1e-6)
+    if suffix == ".stl":
+        return
+    srgb = np.asarray(body().colors)[body().faces.ravel()] / 255
+    colors = np.array(loaded.colors[0]).reshape(len(loaded.vertices) // 3, -1)[corners, :3]
+    np.testing.assert_allclose(colors, linear(srgb) if suffix == ".glb" else srgb, atol=0.003)
 
 
 @pytest.mark.parametrize("suffix", FORMATS)
@@ -144,8 +165,7 @@ def test_glb_colours_are_linear() -> None:
     assert {"POSITION", "NORMAL", "COLOR_0"} <= set(tree["meshes"][0]["primitives"][0]["attributes"])
     loaded = read(data, ".glb")
     srgb = np.asarray(body().colors) / 255
-    linear = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
-    np.testing.assert_allclose(loaded.visual.vertex_colors[:, :3] / 255, linear, atol=0.003)
+    np.testing.assert_allclose(loaded.visual.vertex_colors[:, :3] / 255, linear(srgb), atol=0.003)
 
 
 def test_3mf_names_its_unit_and_every_colour() -> None:
