@@ -11,7 +11,7 @@ from PIL import Image
 from hqmodel import files, gpu
 from hqmodel.app import working
 from hqmodel.app.asks import ChooseFile, FilmAs, Filmed, FilmSettings, Problem
-from hqmodel.app.intents import Animate, Answer, Ask, Do, Edit, Pick
+from hqmodel.app.intents import Animate, Answer, Ask, Do, Edit, Pick, Resize
 from hqmodel.app.session import Session
 from hqmodel.edit.sweeping import turntable
 
@@ -38,7 +38,9 @@ def asked(session: Session) -> FilmAs:
 
 
 def test_without_an_animation_the_view_turns(session: Session, tmp_path: Path) -> None:
+    session.apply([Resize((800, 700))])
     settings = asked(session).settings
+    assert settings.size == (640, 560), "the sides are as they are in the viewport"
     assert (settings.animation, settings.turning) == (None, True)
     path = tmp_path / "turn.gif"
     session.apply([Answer(replace(settings, path=path, seconds=0.4, fps=10.0, size=SMALL))])

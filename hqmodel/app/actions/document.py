@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 _UNBOUNDED = "The body runs on without end: give it bounds in the Scene panel, the box that it is cut by."
 # Seconds that a turn around the body takes, unless something else says so.
 _TURN = 6.0
+# Pixels across.
+_WIDE = 640
 
 
 def _save(session: Session) -> None:
@@ -76,7 +78,7 @@ def _export(session: Session) -> None:
 
 
 def _film(session: Session) -> None:
-    """Of the animation that is picked, or else the first, or else a turn around the body."""
+    """Of the animation that is picked, or else the first, or else a turn around the body; as wide for its height as it is seen."""
     release(session)
     found: dict[int, tuple[str, float]] = {}
     for index in range(len(session.scene.animations)):
@@ -86,7 +88,8 @@ def _film(session: Session) -> None:
     chosen = session.animation if session.animation in found else next(iter(found), None)
     seconds = _TURN if chosen is None else found[chosen][1]
     path = (filing.folder(session) / session.document.file_name).with_suffix(".gif")
-    session.dialogs.append(FilmAs(FilmSettings(path, chosen, chosen is None, seconds), found))
+    size = _WIDE, max(16, 2 * round(_WIDE * session.size[1] / session.size[0] / 2))
+    session.dialogs.append(FilmAs(FilmSettings(path, chosen, chosen is None, seconds, size=size), found))
 
 
 DOCUMENT: dict[str, Action] = {
