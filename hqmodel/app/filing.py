@@ -43,12 +43,13 @@ def depart(session: Session, departure: Departure) -> None:
 
 def take(session: Session, path: Path) -> None:
     """A file was dropped on the window: a preset opens, points and meshes are fitted."""
-    from hqmodel.fit import FORMATS  # late: it takes a second, and few need it
+    if path.suffix.lower() != ENDING:
+        from hqmodel.fit import FORMATS  # late: it takes a second, and few need it
 
-    if path.suffix.lower() != ENDING and path.suffix.lower() in FORMATS:
-        session.dialogs.append(ImportAs(ImportSettings(path)))
-    else:
-        leave(session, Open(path))
+        if path.suffix.lower() in FORMATS:
+            session.dialogs.append(ImportAs(ImportSettings(path)))
+            return
+    leave(session, Open(path))
 
 
 def save(session: Session, path: Path | None, then: Departure | None = None) -> None:

@@ -78,7 +78,7 @@ def _export(session: Session) -> None:
 
 
 def _film(session: Session) -> None:
-    """Of the animation that is picked, or else the first, or else a turn around the body; as wide for its height as it is seen."""
+    """Of the animation that is picked, or else the first, or else a turn around the body; its sides are as the viewport's."""
     release(session)
     found: dict[int, tuple[str, float]] = {}
     for index in range(len(session.scene.animations)):
