@@ -38,6 +38,10 @@ class ExportJob(Job[Exported]):
         else:
             body = self._polygonized()
         report = mesh.report(body, lambda: self._report(0.9, "Measuring"))
+        thin = mesh.thin_parts(self._scene, body.resolution or 0) if settings.method == "cubes" else []
+        if thin:
+            report["thinner_than_cells"] = ", ".join(self._scene.shapes[part.shape].name for part in thin)
+            report["resolution_for_them"] = max(part.resolution for part in thin)
         if settings.tolerance is not None:
             report["within_tolerance"] = (mesh.sized(body, settings.size).surface_error or 0.0) <= settings.tolerance
         fitted = mesh.fitted(body, suffix, unit=settings.unit, size=settings.size, up=settings.up)

@@ -4,20 +4,24 @@ from __future__ import annotations
 
 import re
 import sys
+from collections.abc import Iterator
 from dataclasses import replace
 from math import inf, nan
 from pathlib import Path
 from time import perf_counter
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from hqmodel.model import shown
+from hqmodel.model import Scene, shown
 
 from .faults import INPUT, USAGE, Fault
 from .options import NUMBER, Json, Preset, Quiet, Set, Slice, scene_of
 from .outputs import checked, tell, writing
 from .progress import progress
+
+if TYPE_CHECKING:
+    from hqmodel.mesh import Thin
 
 Unit = Literal["mm", "cm", "m", "in"]
 Up = Literal["z", "y"]
@@ -111,9 +115,11 @@ def export(
     except mesh.MeshError as error:
         raise Fault(f"{preset}: {error}", INPUT) from None
     result |= {"method": method, "quads": len(body.quads.corners) if body.quads else 0, "resolution": made.resolution}
+    thin = mesh.thin_parts(scene, result["resolution"]) if method == "cubes" else []
+    result |= {"thin_parts": [f"shapes[{part.shape}]" for part in thin]}
     result |= {"tolerance": length, "seconds": perf_counter() - started, "files": [str(path) for path in output]}
-    if length is not None and result["surface_error"] > length:
-        print(f"{preset}: {_missed(result)}", file=sys.stderr)
+    for warning in [] if quiet else _warnings(result, scene, thin):
+        print(f"{preset}: {warning}", file=sys.stderr)
     tell(result, _text(result), as_json, quiet)
 
 
@@ -132,14 +138,23 @@ def _length(text: str, unit: Unit | None) -> float:
     return length * METRES[match["unit"].lower()] / METRES[unit]
 
 
-def _missed(result: dict[str, Any]) -> str:
-    """What to say of a tolerance that was not met."""
-    from hqmodel.mesh import MAX_RESOLUTION, finer
+def _warnings(result: dict[str, Any], scene: Scene, thin: list[Thin]) -> Iterator[str]:
+    """What is not as it was wanted, a line each: parts that the grid saw only some of, a tolerance that was not met."""
+    from hqmodel.mesh import finer
 
     cells, error, length = result["resolution"], result["surface_error"], result["tolerance"]
-    needed = finer(cells, error, length)
-    hope = f"--resolution {needed} may do" if needed <= MAX_RESOLUTION else "no --resolution would do"
-    return f"--tolerance: expected no point further off than {length:g}, got {error:.2g} at a resolution of {cells}; {hope}"
+    for shape, needed in thin:
+        name = f"shapes[{shape}] ({scene.shapes[shape].name})"
+        yield f"{name}: expected a part no thinner than the cells, got one that is not seen whole at {cells}; {_would(needed)}"
+    if length is not None and error > length:
+        got = f"--tolerance: expected no point further off than {length:g}, got {error:.2g} at a resolution of {cells}"
+        yield f"{got}; {_would(finer(cells, error, length))}"
+
+
+def _would(needed: int) -> str:
+    from hqmodel.mesh import MAX_RESOLUTION
+
+    return f"--resolution {needed} may do" if needed <= MAX_RESOLUTION else "no resolution would do"
 
 
 def _text(result: dict[str, Any]) -> str:

@@ -7,6 +7,7 @@ from .mesh import Mesh, MeshError, Quads
 from .placing import FORMATS, METRES, SIZES, UP_AXIS, fitted, in_world, sized
 from .radial import radial_quads
 from .room import expected_faces, lack_of_room, must_have_room
+from .thin import Thin, thin_parts
 from .tolerance import COARSE, finer
 
 __all__ = [
@@ -22,6 +23,7 @@ __all__ = [
     "MeshError",
     "Progress",
     "Quads",
+    "Thin",
     "expected_faces",
     "finer",
     "fitted",
@@ -32,5 +34,6 @@ __all__ = [
     "radial_quads",
     "report",
     "sized",
+    "thin_parts",
     "write",
 ]

@@ -15,7 +15,7 @@ import trimesh
 from hqmodel import mesh
 from hqmodel.mesh import FORMATS
 
-from .conftest import Command, files
+from .conftest import BALL, Command, files
 
 REQUIRED = {
     "vertices", "faces", "watertight", "volume", "area", "bounds", "euler_number", "seconds", "files", "surface_error",
@@ -130,6 +130,23 @@ def test_colours_and_normals_can_be_left_out(hqmodel: Command) -> None:
         (["-o", "a.obj", "-o", "./a.obj"], 2, "-o: expected each file once, got a.obj, a.obj"),
         (["-o", "a.obj", "--size", "0"], 2, "--size: expected a number from 1e-15 to 1e+15, got 0"),
         (["-o", "a.obj", "--size", "nan"], 2, "--size: expected a number from 1e-15 to 1e+15, got nan"),
+        (["-o", "a.obj", "--tolerance", "0"], 2, "--tolerance: expected a length above 0 such as 0.1 or 0.1mm, got '0'"),
+        (["-o", "a.obj", "--tolerance", "1 ft"], 2, "--tolerance: expected a length above 0 such as 0.1 or 0.1mm, got '1 ft'"),
+        (
+            ["-o", "a.obj", "--tolerance", "0.1mm"],
+            2,
+            "--tolerance: expected --unit beside it, as lengths in the file have none, got '0.1mm'",
+        ),
+        (
+            ["-o", "a.obj", "--tolerance", "1", "--target-faces", "99"],
+            2,
+            "--tolerance: expected no --target-faces beside it, got both",
+        ),
+        (
+            ["-o", "a.obj", "--tolerance", "1", "--method", "radial"],
+            2,
+            "--tolerance: expected --method cubes with it, got radial",
+        ),
         (["-o", "dir.obj"], 2, "dir.obj: expected a file that can be written, got: Is a directory"),
     ],
 )
@@ -145,6 +162,41 @@ def test_options_out_of_range_are_told(hqmodel: Command, option: tuple[str, str]
     assert (ended.status, ended.out) == (2, "")
     assert ended.err.startswith(f"hqmodel export: Invalid value for '{option[0]}'")
     assert ended.err.count("\n") == 1
+
+
+@pytest.mark.parametrize("tolerance", ["0.3", "0.3mm", "0.03 cm"])
+def test_a_tolerance_is_in_the_files_unit_unless_it_names_another(hqmodel: Command, tolerance: str) -> None:
+    options = ["--unit", "mm", "--size", "50", "--tolerance", tolerance, "--json"]
+    told = json.loads(hqmodel("export", "ball.json", "-o", "a.stl", *options).out)
+    assert told["tolerance"] == pytest.approx(0.3)
+    assert told["faces"] < 1500
+    away = np.abs(np.linalg.norm(read("a.stl").triangles_center, axis=1) - 25.0)
+    assert 0.1 < away.max() <= told["surface_error"] <= 0.3
+
+
+def test_a_tolerance_that_is_not_met_is_told(hqmodel: Command) -> None:
+    """Half a cell is too much for tips as sharp as these."""
+    star = ["--set", "gamma=0.5", "--resolution", 24, "--tolerance", 0.0005]
+    ended = hqmodel("export", "ball.json", "-o", "a.stl", *star, "--json")
+    assert ended.status == 0
+    told = json.loads(ended.out)
+    assert told["surface_error"] > 0.0005
+    expected = f"--tolerance: expected no point further off than 0.0005, got {told['surface_error']:.2g} at a resolution of 24; "
+    assert ended.err.startswith(f"ball.json: {expected}--resolution ")
+    assert ended.err.count("\n") == 1
+    assert hqmodel("export", "ball.json", "-o", "a.stl", *star, "-q") == (0, "", "")
+
+
+def test_a_part_that_the_grid_misses_is_named(hqmodel: Command) -> None:
+    sheet = {"normal": [0.3, 0.5, 1], "half_width": 0.01, "gamma": 8}
+    strips = [sheet, {"normal": [1, 0, -0.3]}, {"normal": [0, 1, -0.5]}]
+    Path("fin.json").write_text(json.dumps({**BALL, "shapes": [*BALL["shapes"], {"name": "fin", "strips": strips}]}))
+    ended = hqmodel("export", "fin.json", "-o", "a.stl", "--resolution", 24, "--json", "--set", "hardness=20")
+    assert json.loads(ended.out)["thin_parts"] == []  # within the ball
+    ended = hqmodel("export", "fin.json", "-o", "a.stl", "--resolution", 24, "--json", "--set", "shapes[0].visible=false")
+    assert json.loads(ended.out)["thin_parts"] == ["shapes[1]"]
+    expected = "fin.json: shapes[1] (fin): expected a part no thinner than the cells, got one that is not seen whole at 24; "
+    assert ended.err.startswith(f"{expected}--resolution ")
 
 
 def test_all_files_or_none(hqmodel: Command, monkeypatch: pytest.MonkeyPatch) -> None:
