@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
+import threading
 from collections import deque
 from collections.abc import Callable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import CancelledError, Future, ThreadPoolExecutor, wait
 from dataclasses import replace
 from functools import partial
 from math import inf
@@ -38,6 +39,8 @@ USUAL_RESOLUTION, MAX_RESOLUTION = 256, 2048
 FEWEST_FACES = 4
 # Samples this near to the level are rounding: fields that stay at their level throughout (an octahedron's slices) have no body.
 _ROUNDING = 1e-13
+# Seconds between two looks at whether a tile is done, or no longer wanted.
+_LOOK = 0.1
 # The coarsest step between numbers, as a share of the longest side.
 _COARSEST = 1e-7
 
@@ -123,32 +126,46 @@ def _must_be_near(where: Region) -> None:
 
 def _pieces(scene: Scene, terms: Terms, grid: Grid, tell: Progress) -> Iterator[Piece | None]:
     """The tiles' pieces in order, worked out on all cores."""
-    jobs = tiles(terms, grid)
+    jobs, stopped = tiles(terms, grid), threading.Event()
     ahead = 2 * (os.cpu_count() or 1)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         under_way = deque[Future[Piece | None]]()
         try:
             for number in range(len(jobs) + ahead):
                 if number < len(jobs):
-                    under_way.append(pool.submit(_piece, scene, terms, grid, jobs[number]))
+                    under_way.append(pool.submit(_piece, scene, terms, grid, jobs[number], stopped))
                 if number >= ahead:  # no further ahead, so that pieces don't pile up
-                    yield under_way.popleft().result()
+                    piece = under_way.popleft()
+                    while not wait([piece], _LOOK).done:
+                        tell(0.95 * (number - ahead) / len(jobs), "Meshing")
+                    yield piece.result()
                     tell(0.95 * (number - ahead + 1) / len(jobs), "Meshing")
         finally:
+            stopped.set()
             pool.shutdown(wait=True, cancel_futures=True)
 
 
-def _piece(scene: Scene, terms: Terms, grid: Grid, tile: Blocks) -> Piece | None:
+def _piece(scene: Scene, terms: Terms, grid: Grid, tile: Blocks, stopped: threading.Event) -> Piece | None:
+    def still() -> None:
+        if stopped.is_set():
+            raise CancelledError  # nobody looks at the result any more
+
+    def samples(nodes: Numbers) -> Samples:
+        still()
+        return _samples(local, grid, nodes)
+
     low, high = grid.corners(tile.reshape(1, 3), TILE)
     local = relevant_terms(terms, low[0], high[0])
     blocks = blocks_of(local, grid, tile)
     if not len(blocks):
         return None
-    patch = extract(blocks, tile, TILE, lambda nodes: _samples(local, grid, nodes))
+    patch = extract(blocks, tile, TILE, samples)
+    still()
     if patch is None or not len(patch.faces):
         return None
     node, axis, faces = patch.node, patch.axis, patch.faces
     vertices, slopes = place_vertices(local, grid, node, axis, patch.ends)
+    still()
     normals, colors, off = clothed(scene, local, grid, vertices, slopes, faces, within=axis == AT_NODE)
     shared = np.flatnonzero(np.logical_or.reduce([(node[:, i] % TILE == 0) & (axis != i) for i in range(3)]))
     return Piece(
