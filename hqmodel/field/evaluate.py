@@ -61,9 +61,11 @@ def near_linear_gradient(terms: Terms, points: ArrayLike) -> tuple[Array, Array]
     """
     ratio, slope = log_gradient(terms, points)
     hard, steep = _typical(terms)
-    rate = np.maximum(1.0 - ratio / hard, 1e-300) ** (1.0 / steep - 1.0) / (hard * steep)
+    share = _share(ratio, hard)
+    root = share ** (1.0 / steep)
     with np.errstate(over="ignore"):
-        return near_linear(terms, ratio), np.clip(slope * rate[..., None], -HUGE, HUGE)
+        slope *= (root / (share * (hard * steep)))[..., None]
+    return 1.0 - root, np.clip(slope, -HUGE, HUGE, out=slope)
 
 
 def curvature(terms: Terms, points: ArrayLike) -> Curvature:
@@ -93,7 +95,7 @@ def near_linear(terms: Terms, ratio: Array) -> Array:
     Same sign as L, 1 at most; what to hand to anything that interpolates.
     """
     hard, steep = _typical(terms)
-    return 1.0 - np.maximum(1.0 - ratio / hard, 1e-300) ** (1.0 / steep)
+    return 1.0 - _share(ratio, hard) ** (1.0 / steep)
 
 
 def near_linear_single(terms: Terms, ratio: Array, rounding: float = 0.0) -> NDArray[np.float32]:
@@ -106,6 +108,11 @@ def near_linear_single(terms: Terms, ratio: Array, rounding: float = 0.0) -> NDA
     root /= np.float32(steep)
     size = np.maximum(np.abs(1.0 - np.exp(root, out=root), out=root), np.float32(1e-37), out=root)
     return np.where(ratio > rounding * hard * steep, size, -size)
+
+
+def _share(ratio: Array, hard: float) -> Array:
+    """H/C of a lone shape, (...,), from L: 1 on the surface."""
+    return np.maximum(1.0 - ratio / hard, 1e-300)
 
 
 def _typical(terms: Terms) -> tuple[float, float]:
@@ -124,6 +131,8 @@ def log_balance(terms: Terms, t: Array, t_carving: Array | None = None) -> Array
     """L (P,) from the exponents T (K, P); for bounds the carving terms may take theirs from another array."""
     positive = terms.positive
     level = terms.level
+    if level > 0 and positive.all():
+        return log_sum(t) - np.log(level)
     gain = [t[positive]]
     loss = [(t if t_carving is None else t_carving)[~positive]]
     if level != 0:
@@ -173,10 +182,12 @@ def _log_gradient(terms: Terms, points: Array) -> Array:
     weights = np.empty_like(jet.t)
     level = np.log(abs(terms.level)) if terms.level else -np.inf
     for side, adds in ((terms.positive, True), (~terms.positive, False)):
-        total = log_sum(jet.t[side])
-        if (terms.level < 0) == adds:
-            total = np.logaddexp(total, level)
-        weights[side] = (1 if adds else -1) * np.exp(jet.t[side] - total)
+        t, with_level = jet.t[side], (terms.level < 0) == adds
+        if len(t) == 1 and not with_level:
+            weights[side] = 1 if adds else -1
+        elif len(t):
+            total = np.logaddexp(log_sum(t), level) if with_level else log_sum(t)
+            weights[side] = (1 if adds else -1) * np.exp(t - total)
     weights *= -terms.hardness[:, None]
     # not by np.einsum: of no point may the last bit depend on its neighbours
     return np.vstack([balance, np.sum(weights[:, None] * jet.slope, axis=0)])
@@ -227,15 +238,18 @@ class _Jet:
         self.terms = terms
         h = strip_functions(terms, points)
         u = np.abs(h)
-        self.sign = np.sign(h)
+        self.sign = np.sign(h, out=h)
         self.t = exponents(terms, term_sums(terms, group_powers(terms, u), u))
         if terms.grouped:
             self.largest, self.spread = scaled(terms, u)
             self.share = u / np.maximum(self.largest, np.finfo(float).tiny)[terms.group_of_strip]
         else:
-            self.largest, self.spread, self.share = u, np.ones_like(u), np.ones_like(u)
-        first = self._group_factor(1)[terms.group_of_strip]
-        self.by_strip = np.minimum(first * self._share_power(1), _STEEP) * self.sign
+            self.largest, self.spread, self.share = u, np.ones(1), np.ones(1)
+        first = self._group_factor(1)
+        if terms.grouped:
+            first = first[terms.group_of_strip] * self._share_power(1)
+        self.by_strip = np.minimum(first, _STEEP, out=first)
+        self.by_strip *= self.sign
         signed = self.by_strip * terms.group_sign[terms.group_of_strip][:, None] if terms.hyperbolic else self.by_strip
         self.slope = self._to_terms(signed)
 
@@ -244,14 +258,15 @@ class _Jet:
         terms = self.terms
         lowered = (terms.outer - order)[:, None]
         with np.errstate(over="ignore", divide="ignore"):
-            size, inside = self.largest, np.ones(1)
+            size = self.largest
             if terms.grouped:  # m^(G-order) may underflow where s^(G/g-order) overflows: rooted before it is raised
                 inner = terms.inner[terms.group_start][:, None]
                 size = size * self.spread ** (1 / inner)
-                inside = self.spread ** (order * (1 / inner - 1))
-            raised = np.minimum(power(size, terms.outer - order), _STEEP)
-        regular = (self.largest > 0) | (lowered == 0)
-        return np.where(regular, terms.outer[:, None] * np.minimum(raised * inside, _STEEP), 0.0)
+            result = np.minimum(power(size, terms.outer - order), _STEEP)
+            if terms.grouped:
+                result = np.minimum(result * self.spread ** (order * (1 / inner - 1)), _STEEP)
+        result *= terms.outer[:, None]
+        return np.where((self.largest > 0) | (lowered >= 0), result, 0.0) if np.any(lowered < 0) else result
 
     def _share_power(self, order: int) -> Array:
         """r^(g-order), (S, P); 0 at r = 0 unless the exponent is 0."""

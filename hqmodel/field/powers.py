@@ -65,16 +65,16 @@ def over_runs(rows: Array, starts: Indices) -> Array:
     if runs == count:
         return rows
     even = count // runs
-    if np.array_equal(starts, np.arange(runs) * even) and runs * even == count:
+    if runs == 1 or (runs * even == count and np.array_equal(starts, np.arange(runs) * even)):
         return rows.reshape(runs, even, -1).sum(axis=1)
     return np.add.reduceat(rows, starts, axis=0)
 
 
 def power(base: Array, exponents: Array) -> Array:
     """base ** exponents[:, None], (n, P), for bases >= 0; by multiplication where an exponent is a small whole number."""
+    if np.all(exponents == exponents[0]):
+        return _raised(base, float(exponents[0]))
     kinds = np.unique(exponents)
-    if len(kinds) == 1:
-        return _raised(base, float(kinds[0]))
     if len(kinds) * 4 > len(exponents) and not np.any((kinds <= _MOST_FACTORS) & (kinds % 1 == 0)):
         return base ** exponents[:, None]
     result = np.empty(np.broadcast_shapes(base.shape, (len(exponents), 1)))

@@ -10,6 +10,7 @@ from concurrent.futures import CancelledError, Future, ThreadPoolExecutor, wait
 from dataclasses import replace
 from functools import partial
 from math import inf
+from typing import TypeVar
 
 import numpy as np
 
@@ -20,26 +21,31 @@ from hqmodel.field import (
     mirror_axes,
     near_linear_single,
     region,
-    relevant_terms,
 )
 from hqmodel.model import Scene
 
-from .cull import TILE, Blocks, blocks_of, tiles
+from .balance import Balance
+from .creases import sharp_vertices
+from .cull import Blocks, blocks_of, relevant, tiles
 from .extract import AT_NODE, Numbers, Samples, extract
-from .finish import finished, pulls
-from .grid import Grid, make_grid
-from .mesh import Mesh, MeshError
+from .finish import finished
+from .grid import BLOCK, Grid, make_grid
+from .measure import furthest
+from .mesh import Mesh, MeshError, rows
 from .refine import place_vertices
 from .shade import clothed
 from .tolerance import COARSE, MOST, fineness, finer
 from .weld import Piece, Weld
 
+Result = TypeVar("Result")
 Progress = Callable[[float, str], None]
 USUAL_RESOLUTION, MAX_RESOLUTION = 256, 2048
 FEWEST_FACES = 4
 # Samples this near to the level are rounding: fields that stay at their level throughout (an octahedron's slices) have no body.
 _ROUNDING = 1e-13
-# Seconds between two looks at whether a tile is done, or no longer wanted.
+# Neighbouring blocks that make one job: enough for NumPy's calls to be worth it, few enough to stay small in memory.
+RUN = 2000
+# Seconds between two looks at whether a piece is done, or no longer wanted.
 _LOOK = 0.1
 # The coarsest step between numbers, as a share of the longest side.
 _COARSEST = 1e-7
@@ -93,14 +99,14 @@ def _mesh(scene: Scene, resolution: int, tell: Progress, target_faces: int | Non
     mirrored = mirror_axes(terms, where)
     grid = make_grid(where, resolution, mirrored)
     weld = Weld()
-    for piece in _pieces(scene, terms, grid, tell):
-        if piece is not None:
-            weld.add(piece)
+    balance = Balance.of(grid, mirrored, float(np.max(where.size)))
+    for piece, share in _pieces(scene, terms, balance, tell):
+        weld.add(piece, share)
     if not weld:
         raise MeshError("no surface: the field does not reach its level anywhere at this resolution")
     still = partial(tell, 0.95, "Joining" if target_faces is None and tolerance is None else "Reducing")
     still()
-    mesh = finished(scene, terms, grid, weld, mirrored, target_faces, tolerance, still)
+    mesh = finished(scene, terms, grid, weld, balance, mirrored, target_faces, tolerance, still)
     return replace(mesh, resolution=resolution)
 
 
@@ -124,28 +130,50 @@ def _must_be_near(where: Region) -> None:
         raise MeshError(f"expected a body nearer to the origin, got one {side:.3g} long at a distance of {away:.3g}")
 
 
-def _pieces(scene: Scene, terms: Terms, grid: Grid, tell: Progress) -> Iterator[Piece | None]:
-    """The tiles' pieces in order, worked out on all cores."""
-    jobs, stopped = tiles(terms, grid), threading.Event()
-    ahead = 2 * (os.cpu_count() or 1)
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        under_way = deque[Future[Piece | None]]()
+def _pieces(scene: Scene, terms: Terms, balance: Balance, tell: Progress) -> Iterator[tuple[Piece, float]]:
+    """The mesh in pieces, each with the share of the blocks that are done with it."""
+    share, stopped = 0.0, threading.Event()
+
+    def waiting() -> None:
+        tell(0.95 * share, "Meshing")
+
+    found = _in_order(partial(blocks_of, terms, balance.grid), list(tiles(terms, balance.grid)), waiting, threading.Event())
+    blocks = np.concatenate([np.empty((0, 3), dtype=np.int32), *found], dtype=np.int32, casting="same_kind")
+    ends = range(RUN, len(blocks) + RUN, RUN)
+    runs: list[Blocks] = [blocks[end - RUN : end] for end in ends]
+    pieces = _in_order(partial(_piece, scene, terms, balance, stopped), runs, waiting, stopped)
+    for piece, end in zip(pieces, ends, strict=True):
+        share = min(end / len(blocks), 1.0)
+        if piece is not None:
+            yield piece, share
+        waiting()
+
+
+def _in_order(
+    work: Callable[[Blocks], Result], jobs: list[Blocks], waiting: Callable[[], None], stopped: threading.Event
+) -> Iterator[Result]:
+    """What `work` makes of the jobs, in their order, on all cores.
+
+    `waiting` is called meanwhile; when it raises, or nobody wants more, `stopped` is set.
+    """
+    ahead = os.cpu_count() or 1
+    with ThreadPoolExecutor(ahead) as pool:
+        under_way = deque[Future[Result]]()
         try:
             for number in range(len(jobs) + ahead):
                 if number < len(jobs):
-                    under_way.append(pool.submit(_piece, scene, terms, grid, jobs[number], stopped))
-                if number >= ahead:  # no further ahead, so that pieces don't pile up
-                    piece = under_way.popleft()
-                    while not wait([piece], _LOOK).done:
-                        tell(0.95 * (number - ahead) / len(jobs), "Meshing")
-                    yield piece.result()
-                    tell(0.95 * (number - ahead + 1) / len(jobs), "Meshing")
+                    under_way.append(pool.submit(work, jobs[number]))
+                if number >= ahead and under_way:  # no further ahead, so that results don't pile up
+                    first = under_way.popleft()
+                    while not wait([first], _LOOK).done:
+                        waiting()
+                    yield first.result()
         finally:
             stopped.set()
             pool.shutdown(wait=True, cancel_futures=True)
 
 
-def _piece(scene: Scene, terms: Terms, grid: Grid, tile: Blocks, stopped: threading.Event) -> Piece | None:
+def _piece(scene: Scene, terms: Terms, balance: Balance, stopped: threading.Event, blocks: Blocks) -> Piece | None:
     def still() -> None:
         if stopped.is_set():
             raise CancelledError  # nobody looks at the result any more
@@ -154,12 +182,8 @@ def _piece(scene: Scene, terms: Terms, grid: Grid, tile: Blocks, stopped: thread
         still()
         return _samples(local, grid, nodes)
 
-    low, high = grid.corners(tile.reshape(1, 3), TILE)
-    local = relevant_terms(terms, low[0], high[0])
-    blocks = blocks_of(local, grid, tile)
-    if not len(blocks):
-        return None
-    patch = extract(blocks, tile, TILE, samples)
+    grid, local = balance.grid, relevant(terms, balance.grid, blocks, BLOCK)
+    patch = extract(blocks, samples)
     still()
     if patch is None or not len(patch.faces):
         return None
@@ -167,17 +191,21 @@ def _piece(scene: Scene, terms: Terms, grid: Grid, tile: Blocks, stopped: thread
     vertices, slopes = place_vertices(local, grid, node, axis, patch.ends)
     still()
     normals, colors, off = clothed(scene, local, grid, vertices, slopes, faces, within=axis == AT_NODE)
-    shared = np.flatnonzero(np.logical_or.reduce([(node[:, i] % TILE == 0) & (axis != i) for i in range(3)]))
+    pulls = balance.pulls(faces, off, normals)
+    step = np.where(patch.shared, np.float32(0), balance.steps(pulls))
+    balance.move(vertices, normals, step)
+    shared = np.flatnonzero(patch.shared)
     return Piece(
         keys=patch.keys(grid)[shared],
         shared=shared,
         vertices=vertices,
         normals=normals,
         colors=colors,
-        pull=pulls(faces, off, normals, grid.cell),
+        pulls=rows(pulls, shared),
         pinched=patch.pinched,
+        sharp=sharp_vertices(faces, off, normals),
         faces=faces,
-        off=off,
+        worst=furthest(balance.sunk(off, faces, step)),
     )
 
 

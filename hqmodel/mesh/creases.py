@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from hqmodel.field import Terms
 
+from .measure import QUANTUM
 from .mesh import Array, Triangles, alike, dots, lengths, marks, unit
 from .refine import to_surface
 from .splits import Indices, Part, Plane
@@ -27,6 +28,8 @@ _SLACK = 1e-3
 # An edge is split where the surface is further from it than this share of a cell, and not next to its ends.
 _OFF = 0.02
 _ASIDE = 0.05
+# No edge of a face is looked at whose middle is nearer to the surface than so many quanta.
+_ROUGH = _OFF / 10 / QUANTUM
 # A point is on the surface when the last step towards it was shorter than this share of a cell.
 _ARRIVED = 1e-5
 
@@ -41,12 +44,21 @@ class Creased(NamedTuple):
     origin: Indices
 
 
+def sharp_vertices(faces: Triangles, off: NDArray[np.float32], normals: NDArray[np.float32]) -> NDArray[np.bool_]:
+    """The vertices, (V,), of faces (F, 3) that a crease may pass through: well off the surface, by `off` (F,) quanta, and between
+    vertices whose normals (V, 3) differ."""
+    rough = faces.compress(np.abs(off) > _ROUGH, axis=0)
+    result = np.zeros(len(normals), dtype=bool)
+    result[rough[~alike(normals, rough, _SHARP + _SLACK)]] = True
+    return result
+
+
 def creased(
     terms: Terms,
     vertices: Array,
     normals: NDArray[np.float32],
     faces: Triangles,
-    off: NDArray[np.float32],
+    sharp: NDArray[np.bool_],
     cell: float,
     planes: list[Plane],
     pinched: NDArray[np.bool_],
@@ -54,18 +66,15 @@ def creased(
 ) -> Creased | None:
     """The mesh with edges split at its creases; None where there are none.
 
-    `normals` (V, 3) are the vertices', `off` (F,) is how far faces' middles are from the surface: those well on it are left
-    alone, and edges between `pinched` vertices (V,), as more than two faces may meet there. Edges in one of the `planes` (axis,
-    coordinate) are split in it. `still` is called now and then; whatever it raises ends the work.
+    `normals` (V, 3) are the vertices'; only edges between `sharp` vertices (V,) are looked at, and none between `pinched` ones
+    (V,), as more than two faces may meet there. Edges in one of the `planes` (axis, coordinate) are split in it. `still` is
+    called now and then; whatever it raises ends the work.
     """
-    marked = np.zeros(len(vertices), dtype=bool)
-    rough = faces[np.abs(off) > _OFF / 4 * cell]
-    marked[rough[~alike(normals, rough, _SHARP + _SLACK)]] = True
-    near = marks(marked, faces) >= 2
+    near = marks(sharp, faces) >= 2
     corners, which = np.unique(faces[near], return_inverse=True)
     part = Part(terms, vertices[corners], which.reshape(-1, 3), planes)
     edges = part.edges()
-    edges = edges[np.all(marked[corners[edges]], axis=1) & ~np.all(pinched[corners[edges]], axis=1)]
+    edges = edges[np.all(sharp[corners[edges]], axis=1) & ~np.all(pinched[corners[edges]], axis=1)]
     for _ in range(_ROUNDS):
         still()
         part.split(*crossings(terms, part, edges, cell))

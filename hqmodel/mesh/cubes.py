@@ -17,8 +17,6 @@ from numpy.typing import NDArray
 # Corner number 4 x + 2 y + z; edges as their lower corner and axis.
 CORNERS = np.array(list(product((0, 1), repeat=3)))
 EDGES = [(corner, axis) for axis in range(3) for corner in range(8) if not CORNERS[corner][axis]]
-# For each case which edges are crossed, (256, 12).
-CROSSED = np.array([[(case >> corner ^ case >> (corner + (4 >> axis))) & 1 > 0 for corner, axis in EDGES] for case in range(256)])
 _EDGE_OF = {frozenset((corner, corner + (4 >> axis))): number for number, (corner, axis) in enumerate(EDGES)}
 
 

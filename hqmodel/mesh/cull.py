@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
-from hqmodel.field import Terms, box_bounds
+from hqmodel.field import Terms, box_bounds, relevant_terms
 
 from .grid import BLOCK, Grid
 
-Blocks = NDArray[np.int64]
+Blocks = NDArray[np.integer[Any]]
 
-# Cells along a side of a tile: what one job samples with the terms that matter there.
+# Cells along a side of a tile: what one job looks for blocks in, with the terms that matter there.
 TILE = 128
 
 
 def tiles(terms: Terms, grid: Grid) -> Blocks:
-    """First nodes (n, 3) of the tiles that the surface may pass through, in a fixed order."""
+    """First nodes (n, 3) of the tiles that the surface may pass through, neighbours mostly in a row."""
     size = TILE
     while size < max(len(nodes) for nodes in grid.nodes):
         size *= 2
@@ -24,8 +26,15 @@ def tiles(terms: Terms, grid: Grid) -> Blocks:
 
 
 def blocks_of(terms: Terms, grid: Grid, tile: Blocks) -> Blocks:
-    """First nodes (n, 3) of the blocks of one tile that the surface may pass through."""
-    return _descend(terms, grid, tile.reshape(1, 3), TILE, BLOCK)
+    """First nodes (n, 3) of the blocks of one tile that the surface may pass through, neighbours mostly in a row."""
+    tile = tile.reshape(1, 3)
+    return _descend(relevant(terms, grid, tile, TILE), grid, tile, TILE, BLOCK)
+
+
+def relevant(terms: Terms, grid: Grid, cubes: Blocks, size: int) -> Terms:
+    """Only the terms that can matter where the cubes of cells are."""
+    low, high = grid.corners(cubes, size)
+    return relevant_terms(terms, low.min(axis=0), high.max(axis=0))
 
 
 def _descend(terms: Terms, grid: Grid, cubes: Blocks, size: int, until: int) -> Blocks:
@@ -36,7 +45,7 @@ def _descend(terms: Terms, grid: Grid, cubes: Blocks, size: int, until: int) -> 
         steps = np.stack(np.meshgrid([0, size], [0, size], [0, size], indexing="ij"), axis=-1).reshape(-1, 3)
         cubes = (cubes[:, None] + steps).reshape(-1, 3)
         cubes = _crossed(terms, grid, cubes[np.all(cubes < ends, axis=1)], size)
-    return cubes[np.lexsort(cubes.T[::-1])]
+    return cubes
 
 
 def _crossed(terms: Terms, grid: Grid, cubes: Blocks, size: int) -> Blocks:

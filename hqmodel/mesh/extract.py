@@ -1,4 +1,4 @@
-"""Triangles of a tile's blocks by marching cubes (see `cubes`), every vertex named by its grid edge.
+"""Triangles of blocks by marching cubes (see `cubes`), every vertex named by its grid edge.
 
 Only nodes of the blocks are sampled, each once, and only cells of the blocks looked at. Vertices are told apart by the edge they
 lie on, never by rounding coordinates.
@@ -6,23 +6,38 @@ lie on, never by rounding coordinates.
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .cubes import AMBIGUOUS, CORNERS, CROSSED, EDGES, FACES, triangles
+from .cubes import AMBIGUOUS, CORNERS, EDGES, FACES, triangles
 from .cull import Blocks
 from .grid import BLOCK, Grid
-from .mesh import Triangles
+from .mesh import Triangles, slices
 
 AT_NODE = 3
 Samples = NDArray[np.float32]
 Numbers = NDArray[np.int64]
 Indices = NDArray[np.intp]
-_EDGES = np.array(EDGES)
+
+
+def _lattice(count: int) -> Numbers:
+    steps = np.arange(count)
+    return np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
+
+
+# A block has nodes of its own, all but those on its far sides, which are its neighbours'.
+_OWN = _lattice(BLOCK)
+_ALL = _lattice(BLOCK + 1)
+_STRIDES = np.array([(BLOCK + 1) ** 2, BLOCK + 1, 1])
+_EDGE_AXIS = np.array([axis for _, axis in EDGES])
+_EDGE_NODE = CORNERS[[corner for corner, _ in EDGES]] @ _STRIDES
+# What is added to a block's number for the next one along each axis.
+_STEP = np.array([1 << 40, 1 << 20, 1])
+# Nodes sampled at once: what stays in a processor's cache.
+_CHUNK = 1 << 15
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,12 +47,14 @@ class Patch:
     `node` (V, 3) and `axis` (V,): the first node of the grid's edge and the axis that it runs along; `AT_NODE` for the node
     itself, where an edge without length leaves a cut. `ends` (V, 2): the samples at both nodes, positive inside. `pinched` (V,)
     tells those on faces of cells that are inside at two opposite corners only: where edges with four triangles may arise.
+    `shared` (V,) tells those that other blocks may have too.
     """
 
     node: Numbers
     axis: Numbers
     ends: Samples
     pinched: NDArray[np.bool_]
+    shared: NDArray[np.bool_]
     faces: Triangles
 
     def keys(self, grid: Grid) -> Numbers:
@@ -47,131 +64,162 @@ class Patch:
         return ((x * ny + y) * nz + z) * (AT_NODE + 1) + self.axis
 
 
-def extract(blocks: Blocks, tile: Blocks, size: int, sample: Callable[[Numbers], Samples]) -> Patch | None:
-    """The level set 0 of a field, positive inside, in blocks (n, 3) of the tile of `size` cells whose first node is `tile` (3,).
+def extract(blocks: Blocks, sample: Callable[[Numbers], Samples]) -> Patch | None:
+    """The level set 0 of a field, positive inside, in blocks (n, 3), given by their first nodes.
 
     `sample` gives the field at nodes (m, 3), never 0, and -inf beyond a cut. None where there is no surface.
     """
-    shape = (size + 1,) * 3
-    strides = np.array([shape[1] * shape[2], shape[2], 1])
-    room = _room.of((size + 1) ** 3)
-    first = (blocks - tile) @ strides
-    nodes = room.each(first[:, None] + _lattice(BLOCK + 1) @ strides)
-    room.samples[nodes] = sample(np.stack(np.unravel_index(nodes, shape)).T + tile)
-    cells = (first[:, None] + _lattice(BLOCK) @ strides).ravel()
-    case = room.cases(nodes, strides)[cells]
-    crossed = (case > 0) & (case < 255)
-    if not crossed.any():
+    nodes = _Nodes(blocks)
+    samples = nodes.sampled(sample)
+    inside = (samples > 0).view(np.uint8).take(nodes.of_block)
+    case = _cases(inside).ravel()
+    cells = np.flatnonzero((case > 0) & (case < 255))
+    if not len(cells):
         return None
-    cells, case, corners = cells[crossed], case[crossed], CORNERS @ strides
-    joined, unclear = _joined(case, cells, room.samples, corners)
-    near, axis, of_cell = _vertices(room, cells, case, corners)
-    far = near + strides[axis]
-    node = np.stack(np.unravel_index(near, shape)).T + tile
-    ends = np.stack([room.samples[near], room.samples[far]]).T
-    room.marked[unclear] = True
-    pinched = room.marked[near] & room.marked[far]
-    room.marked[unclear] = False
-    edges, which = _triangulated(case, joined)
-    return _without_length(Patch(node, axis, ends, pinched, of_cell[which, edges].reshape(-1, 3)))
-
-
-def _vertices(
-    room: _Room, cells: Indices, case: NDArray[np.uint8], corners: Indices
-) -> tuple[Indices, NDArray[np.int64], Triangles]:
-    """The crossed edges of cells, each once, by first node and axis, (V,) each, and their numbers by cell and edge, (n, 12)."""
-    of_cell, near, count = np.empty((len(cells), 12), dtype=np.int32), list[Indices](), 0
-    for edges in np.arange(12).reshape(3, 4):
-        nodes = cells[:, None] + corners[_EDGES[edges, 0]]
-        found = room.each(nodes[CROSSED[case][:, edges]])
-        room.number[found] = np.arange(count, count + len(found), dtype=np.int32)
-        of_cell[:, edges] = room.number[nodes]
-        near.append(found)
-        count += len(found)
-    return np.concatenate(near), np.repeat(np.arange(3), [len(found) for found in near]), of_cell
-
-
-class _Room(threading.local):
-    """Arrays over a tile's nodes, one set a thread, used again for every tile: fresh memory is slow to come by."""
-
-    samples: Samples
-    inside: NDArray[np.uint8]
-    marked: NDArray[np.bool_]
-    number: NDArray[np.int32]
-
-    def of(self, count: int) -> _Room:
-        """Itself, with arrays for tiles of so many nodes."""
-        if not hasattr(self, "samples") or len(self.samples) != count:
-            self.samples = np.empty(count, dtype=np.float32)
-            self.inside = np.zeros(count, dtype=np.uint8)
-            self.marked = np.zeros(count, dtype=bool)
-            self.number = np.zeros(count, dtype=np.int32)
-        return self
-
-    def each(self, numbers: Indices) -> Indices:
-        """The nodes, each once and in order."""
-        self.marked[numbers] = True
-        found = np.flatnonzero(self.marked)
-        self.marked[found] = False
-        return found
-
-    def cases(self, nodes: Indices, strides: Indices) -> NDArray[np.uint8]:
-        """For every cell, by its first node, which of its corners are inside, as bits; true for cells whose corners are nodes."""
-        self.inside[nodes] = self.samples[nodes] > 0
-        case, spare = self.inside, self.number.view(np.uint8).reshape(4, -1)  # its numbers are not needed yet
-        for bits, stride, into in zip((1, 2, 4), reversed(strides.tolist()), spare, strict=False):
-            count = len(case) - stride
-            np.left_shift(case[stride:], np.uint8(bits), out=into[:count])
-            case = np.bitwise_or(case[:count], into[:count], out=into[:count])
-        self.inside[nodes] = 0
-        return case
-
-
-_room = _Room()
-
-
-def _without_length(patch: Patch) -> Patch:
-    """The patch with the ends of cuts closed up: edges that leave it have no length."""
-    node, axis, ends = patch.node, patch.axis, patch.ends
+    case = case.take(cells)
+    block = cells // len(_OWN)
+    first = block * len(_ALL) + (_OWN @ _STRIDES).take(cells - block * len(_OWN))
+    joined, unclear = _joined(case, first, nodes, samples)
+    near, far, axis, number = _vertices(nodes, inside)
+    rim = nodes.rim()
+    shared = np.logical_or.reduce([rim[i].take(near) & (axis != i) for i in range(3)])
+    marked = np.zeros(len(samples), dtype=bool)
+    marked[unclear] = True
+    faces = _faces(nodes, number, first, case + joined.astype(np.intp) * 256)
+    ends = np.stack([samples.take(near), samples.take(far)]).T
     leaves = np.isneginf(ends[:, 0]) | np.isneginf(ends[:, 1])
+    shared[leaves] = rim[:, near[leaves]].any(axis=0) | rim[:, far[leaves]].any(axis=0)
+    pinched = (marked.take(near) & marked.take(far)) | leaves
+    return _without_length(Patch(nodes.named(near), axis, ends, pinched, shared, faces), leaves)
+
+
+class _Nodes:
+    """Room for the nodes of blocks (n, 3), each once: block by block, those of neighbours on their far sides included.
+
+    `of_block` (n, 125) tells where those of each block are, in the order of their coordinates.
+    """
+
+    def __init__(self, blocks: Blocks) -> None:
+        numbers = blocks.astype(np.int64) // BLOCK @ _STEP
+        every, which = np.unique(numbers[:, None] + CORNERS @ _STEP, return_inverse=True)
+        self._first = every // _STEP[:, None] % _STEP[1] * BLOCK
+        self._beside = which.reshape(-1, 8)  # each block's place among all, and those of its neighbours on the far sides
+        own = _ALL % BLOCK @ np.array([BLOCK**2, BLOCK, 1])
+        self.of_block = np.take(self._beside.astype(np.int32), _ALL // BLOCK @ np.array([4, 2, 1]), axis=1)
+        self.of_block *= len(_OWN)
+        self.of_block += own.astype(np.int32)
+
+    def __len__(self) -> int:
+        return self._first.shape[1] * len(_OWN)
+
+    def named(self, places: Indices) -> Numbers:
+        """The nodes (n, 3) at places (n,)."""
+        slot = places // len(_OWN)
+        own = places - slot * len(_OWN)
+        return np.stack([first.take(slot) + step.take(own) for first, step in zip(self._first, _OWN.T, strict=True)]).T
+
+    def rim(self) -> NDArray[np.bool_]:
+        """Whether nodes are on a side beyond which there is no block, by the axis across the side and by place, (3, places)."""
+        result = np.zeros((3, len(self)), dtype=bool)
+        present = np.zeros((2, self._first.shape[1]), dtype=bool)
+        present[1, self._beside[:, 0]] = True
+        for axis, steps in enumerate(_ALL.T):
+            ahead = self._beside[:, 4 >> axis]
+            present[0] = False
+            present[0, ahead] = True
+            for there, at in ((present[0, self._beside[:, 0]], 0), (present[1, ahead], BLOCK)):
+                result[axis, self.of_block[np.ix_(~there, steps == at)]] = True
+        return result
+
+    def sampled(self, sample: Callable[[Numbers], Samples]) -> Samples:
+        """The field at all nodes of the blocks, by their places."""
+        used = np.zeros(len(self), dtype=bool)
+        used[self.of_block] = True
+        places = np.flatnonzero(used)
+        result = np.zeros(len(self), dtype=np.float32)
+        for start in range(0, len(places), _CHUNK):
+            here = places[start : start + _CHUNK]
+            result[here] = sample(self.named(here))
+        return result
+
+
+def _cases(inside: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """For every cell which of its corners are inside, as bits, (n, 4, 4, 4), from all nodes of blocks, (n, 125)."""
+    inside = inside.reshape(-1, BLOCK + 1, BLOCK + 1, BLOCK + 1)
+    case = inside[..., :-1] | inside[..., 1:] << 1
+    case = case[:, :, :-1] | case[:, :, 1:] << 2
+    return np.asarray(case[:, :-1] | case[:, 1:] << 4)
+
+
+def _vertices(nodes: _Nodes, inside: NDArray[np.uint8]) -> tuple[Indices, NDArray[np.int32], Numbers, NDArray[np.int32]]:
+    """The crossed edges of blocks, each once: the places of both nodes and the axis, (V,) each; and the edges' numbers by axis
+    and place, (3, places)."""
+    of_block, inside = nodes.of_block.ravel(), inside.ravel()
+    number = np.zeros((3, len(nodes)), dtype=np.int32)
+    beyond, crossed = np.empty(len(nodes), dtype=np.int32), np.zeros(len(nodes), dtype=bool)
+    near, far = list[Indices](), list[NDArray[np.int32]]()
+    count = 0
+    for axis in range(3):
+        stride = _STRIDES[axis]
+        differ = np.append(inside[:-stride] != inside[stride:], np.zeros(stride, dtype=bool)).reshape(-1, len(_ALL))
+        edges = np.flatnonzero(differ & (_ALL[:, axis] < BLOCK))
+        start = of_block.take(edges)
+        beyond[start] = of_block.take(edges + stride)
+        crossed[start] = True
+        near.append(np.flatnonzero(crossed))
+        crossed[start] = False
+        far.append(beyond.take(near[-1]))
+        number[axis, near[-1]] = np.arange(count, count + len(near[-1]))
+        count += len(near[-1])
+    return np.concatenate(near), np.concatenate(far), np.repeat(np.arange(3), [len(found) for found in near]), number
+
+
+def _without_length(patch: Patch, leaves: NDArray[np.bool_]) -> Patch:
+    """The patch with the ends of cuts closed up: edges that leave it, (V,), have no length."""
     if not leaves.any():
         return patch
-    node = node + (np.isneginf(ends[:, :1]) & (axis[:, None] == np.arange(3)))
-    axis = np.where(leaves, AT_NODE, axis)
+    node = patch.node + (np.isneginf(patch.ends[:, :1]) & (patch.axis[:, None] == np.arange(3)))
+    axis = np.where(leaves, AT_NODE, patch.axis)
     _, kept, number = np.unique(np.column_stack([node, axis]), axis=0, return_index=True, return_inverse=True)
     faces = number.reshape(-1).astype(np.int32)[patch.faces]
     a, b, c = faces.T
     with_length = (a != b) & (b != c) & (c != a)
-    return Patch(node[kept], axis[kept], ends[kept], (patch.pinched | leaves)[kept], faces[with_length])
+    return Patch(node[kept], axis[kept], patch.ends[kept], patch.pinched[kept], patch.shared[kept], faces[with_length])
 
 
-def _lattice(count: int) -> Numbers:
-    steps = np.arange(count)
-    return np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
-
-
-def _joined(case: NDArray[np.uint8], cells: Indices, samples: Samples, corners: Indices) -> tuple[NDArray[np.uint8], Indices]:
+def _joined(case: NDArray[np.uint8], first: Indices, nodes: _Nodes, samples: Samples) -> tuple[NDArray[np.uint8], Indices]:
     """For each cell the ambiguous faces, as bits, whose inside corners are joined: where the face's saddle is inside. Besides,
-    the corners of all ambiguous faces."""
-    result = np.zeros(len(cells), dtype=np.uint8)
-    unclear = np.flatnonzero(AMBIGUOUS[case])
+    the places of the corners of all ambiguous faces."""
+    result = np.zeros(len(case), dtype=np.uint8)
+    unclear = np.flatnonzero(AMBIGUOUS.take(case))
     seen = []
     for face, ring in enumerate(FACES):
         rows = unclear[AMBIGUOUS[case[unclear]] >> face & 1 > 0]
-        seen.append(cells[rows] + corners[list(ring), None])
+        seen.append(nodes.of_block.ravel()[first[rows] + (CORNERS[list(ring)] @ _STRIDES)[:, None]])
         a, b, c, d = samples[seen[-1]]
         joined = np.where(a > 0, a * c > b * d, b * d > a * c)
         result[rows] |= np.where(joined, 1 << face, 0).astype(np.uint8)
     return result, np.concatenate(seen, axis=1).ravel()
 
 
-def _triangulated(case: NDArray[np.uint8], joined: NDArray[np.uint8]) -> tuple[Numbers, Numbers]:
-    """The edges of the cells' triangles, (3 F,), by their number in a cell, and the cell of each."""
-    kinds, kind = np.unique(case + joined.astype(np.int64) * 256, return_inverse=True)
-    tables = [triangles(int(code) % 256, int(code) // 256) for code in kinds]
-    counts = np.array([len(table) for table in tables])
+def _faces(nodes: _Nodes, number: NDArray[np.int32], first: Indices, code: Indices) -> Triangles:
+    """The triangles (F, 3) of cells by the numbers of their edges, (3, places).
+
+    `code` (n,) is a cell's case and its joined faces as further bits, `first` (n,) where in `nodes.of_block` its first node is.
+    """
+    kinds = np.flatnonzero(np.bincount(code))
+    tables = [triangles(int(kind) % 256, int(kind) // 256) for kind in kinds]
+    counts, edges = np.array([len(table) for table in tables]), np.concatenate(tables).astype(np.intp)
     starts = np.cumsum(counts) - counts
-    count = counts[kind]
-    of_cell = np.repeat(np.arange(len(kind)), count)
-    within = np.arange(len(of_cell)) - np.repeat(np.cumsum(count) - count, count)
-    return np.concatenate(tables).astype(np.int64)[starts[kind][of_cell] + within], of_cell
+    kind_of = np.zeros(kinds[-1] + 1, dtype=np.intp)
+    kind_of[kinds] = np.arange(len(kinds))
+    place, by_place = nodes.of_block.ravel(), number.ravel()
+    faces = []
+    for here in slices(len(code)):
+        kind = kind_of.take(code[here])
+        count = counts.take(kind)
+        cell = np.repeat(np.arange(len(kind)), count)
+        edge = edges.take(np.arange(len(cell)) + (starts.take(kind) - np.cumsum(count) + count).take(cell))
+        at = place.take(first[here].take(cell) + _EDGE_NODE.take(edge))
+        faces.append(by_place.take(_EDGE_AXIS.take(edge) * len(nodes) + at))
+    return np.concatenate(faces).reshape(-1, 3)

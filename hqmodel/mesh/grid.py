@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import ceil
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,18 +47,20 @@ class Grid:
                 planes.append((axis, float(nodes[-1]), 1.0))
         return planes
 
-    def corners(self, blocks: NDArray[np.int64], size: int) -> tuple[Array, Array]:
+    def corners(self, blocks: NDArray[np.integer[Any]], size: int) -> tuple[Array, Array]:
         """Corners (n, 3) of cubes of `size` cells, cut off at the grid's end, whose first nodes are `blocks` (n, 3)."""
         return self.points(blocks), self.points(blocks + size)
 
-    def points(self, node: NDArray[np.int64]) -> Array:
+    def points(self, node: NDArray[np.integer[Any]]) -> Array:
         """World positions (n, 3) of nodes numbered (n, 3), those past the end at it."""
-        return np.stack([nodes[np.minimum(node[:, i], len(nodes) - 1)] for i, nodes in enumerate(self.nodes)]).T
+        return np.stack([nodes.take(node[:, i], mode="clip") for i, nodes in enumerate(self.nodes)]).T
 
-    def touches_outside(self, blocks: NDArray[np.int64], size: int) -> NDArray[np.bool_]:
+    def touches_outside(self, blocks: NDArray[np.integer[Any]], size: int) -> NDArray[np.bool_]:
         """Whether cubes of cells hold nodes beyond a cut, (n,)."""
         touching = np.zeros(len(blocks), dtype=bool)
         for i, outside in enumerate(self.outside):
+            if not outside.any():
+                continue
             count = np.concatenate([[0], np.cumsum(outside)])
             last = np.minimum(blocks[:, i] + size, len(outside) - 1)
             touching |= count[last + 1] > count[blocks[:, i]]

@@ -17,27 +17,34 @@ from .refine import to_surface
 _AT_ONCE = 1 << 18
 
 
-def depths(terms: Terms, vertices: Array, faces: Triangles, slopes: Array) -> NDArray[np.float32]:
-    """How far each face's middle lies below the surface, (F,), to first order; negative above it.
+# The share of a cell that distances of faces count in whole multiples of: sums of them don't depend on the order.
+QUANTUM = 2.0**-20
+
+
+def depths(terms: Terms, vertices: Array, faces: Triangles, slopes: Array, cell: float) -> NDArray[np.float32]:
+    """How far each face's middle lies below the surface, (F,), in whole quanta of a cell, to first order; negative above it.
 
     `slopes` (V,) is how fast the near-linear field changes at each vertex.
     """
-    corners = [faces[:, i] for i in range(3)]
-    middles = np.stack([(x[corners[0]] + x[corners[1]] + x[corners[2]]) / 3 for x in vertices.T]).T
-    slope = (slopes[corners[0]] + slopes[corners[1]] + slopes[corners[2]]) / 3
-    return (near_linear_single(terms, log_ratio(terms, middles)) / np.maximum(slope, 1e-30)).astype(np.float32)
+    a, b, c = faces.T.astype(np.intp)
+    middles = np.stack([(x.take(a) + x.take(b) + x.take(c)) / 3 for x in vertices.T]).T
+    slope = (slopes.take(a) + slopes.take(b) + slopes.take(c)) / 3
+    slope *= QUANTUM * cell
+    return np.rint(near_linear_single(terms, log_ratio(terms, middles)) / np.maximum(slope, 1e-30)).astype(np.float32)
 
 
-def largest_distance(terms: Terms, vertices: Array, faces: Triangles, off: NDArray[np.float32], stride: float) -> float:
-    """The largest distance of a face's middle from the surface, measured along the gradient by Newton steps.
+def furthest(off: NDArray[np.float32]) -> NDArray[np.intp]:
+    """The numbers of those faces that are furthest off the surface: some thousandth of them."""
+    count = min(len(off), 200 + len(off) // 1000)
+    return np.argpartition(np.abs(off), -count)[len(off) - count :] if count else np.empty(0, dtype=np.intp)
 
-    Those faces are followed to the surface that look worst by `off`, (F,): some thousandth of them.
-    """
+
+def largest_distance(terms: Terms, vertices: Array, faces: Triangles, stride: float) -> float:
+    """The largest distance of a face's middle from the surface, measured along the gradient by Newton steps."""
     if not len(faces):
         return 0.0
-    count = min(len(faces), 200 + len(faces) // 1000)
-    worst = vertices[faces[np.argpartition(np.abs(off), -count)[-count:]]].mean(axis=1)
-    return float(np.max(lengths(to_surface(terms, worst, stride, rounds=6)[0] - worst)))
+    middles = vertices[faces].mean(axis=1)
+    return float(np.max(lengths(to_surface(terms, middles, stride, rounds=6)[0] - middles)))
 
 
 def report(mesh: Mesh, still: Callable[[], None] = lambda: None) -> dict[str, Any]:

@@ -25,7 +25,7 @@ from hqmodel.field import (
 from hqmodel.model import Scene
 
 from .build import Progress
-from .measure import depths, largest_distance
+from .measure import depths, furthest, largest_distance
 from .mesh import Array, Mesh, MeshError, Quads, lengths, unit
 from .shade import colored
 
@@ -104,13 +104,14 @@ def _blown_up(scene: Scene, terms: Terms, where: Region, centre: Array, cube: _C
     which, signs = which.reshape(-1), np.where(mirrored & (cube.points < 0), -1.0, 1.0)
     vertices = points[which] * signs
     faces = _triangles(vertices, cube.cells, n)
-    off = depths(terms, vertices, faces, steepness[which])
+    cell = float(np.max(where.size)) / n
+    worst = furthest(depths(terms, vertices, faces, steepness[which], cell))
     return Mesh(
         vertices,
         faces,
         (normals[which] * signs).astype(np.float32),
         colored(scene, terms, points)[which],
-        largest_distance(terms, vertices, faces, off, float(np.max(where.size)) / n),
+        largest_distance(terms, vertices, faces[worst], cell),
         Quads(cube.cells.astype(np.int32), cube.cross / (4 * n) + (0, 0.125), cube.cross_cells.astype(np.int32)),
     )
 

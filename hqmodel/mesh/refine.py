@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -9,7 +11,7 @@ from hqmodel.field import Terms, log_ratio, near_linear, near_linear_gradient
 
 from .extract import AT_NODE, Samples
 from .grid import Grid
-from .mesh import Array, dots, lengths
+from .mesh import Array, lengths, rows
 
 # A vertex nearer to a node than this share of the edge is moved off it and back onto the surface sideways, so that the
 # vertices around a node that lies almost on the surface stay apart.
@@ -30,40 +32,65 @@ def place_vertices(
 
     Exactly in the planes of the grid that their edges lie in at a mirror plane or a cut.
     """
-    points, slopes = grid.points(node), np.empty((3, len(node))).T
-    free = np.flatnonzero(axis < AT_NODE)
-    start, end = points[free], points[free].copy()
-    for i, nodes in enumerate(grid.nodes):
-        along = axis[free] == i
-        end[along, i] = nodes[node[free[along], i] + 1]
-    points[free], slopes[free], share = _on_edges(terms, start, end, ends[free])
-    again = np.flatnonzero(axis == AT_NODE)
+    caps = np.flatnonzero(axis == AT_NODE)
+    if caps.size:
+        points, slopes = grid.points(node), np.empty((len(node), 3))
+        free = np.flatnonzero(axis < AT_NODE)
+        slopes[caps] = near_linear_gradient(terms, points[caps])[1]
+        points[free], slopes[free] = place_vertices(terms, grid, node[free], axis[free], ends[free])
+        return points, slopes
+    edges = _Edges.of(grid, node, axis, ends)
+    points, slopes, share = _on_edges(terms, edges)
     near = np.flatnonzero((share < _CROWDED) | (share > 1 - _CROWDED))
     if near.size:
-        way, share = end[near] - start[near], share[near, None]
-        aside, beside = (start[near] + way * np.clip(share, d, 1 - d) for d in (_CROWDED, _APART))
-        points[free[near]] = _projected(terms, aside, beside, _held(grid, node[free[near]], axis[free[near]]), grid.cell)
-        again = np.append(again, free[near])
-    slopes[again] = near_linear_gradient(terms, points[again])[1]
+        crowded, share = edges.some(near), share.take(near)
+        aside, beside = (crowded.at(np.clip(share, d, 1 - d)) for d in (_CROWDED, _APART))
+        points[near] = _projected(terms, aside, beside, _held(grid, rows(node, near), axis.take(near)), grid.cell)
+        slopes[near] = near_linear_gradient(terms, points[near])[1]
     return points, slopes
 
 
-def _on_edges(terms: Terms, start: Array, end: Array, ends: Samples) -> tuple[Array, Array, Array]:
-    """Where edges from start to end (n, 3) meet the surface: the points (n, 3), the gradients there (n, 3), and the shares of the
-    edges (n,).
+class _Edges(NamedTuple):
+    """Edges of the grid: from `start` (n, 3) along `axis` (n,), so `long` (n,); `ends` (n, 2) are the samples at both ends."""
+
+    start: Array
+    axis: NDArray[np.int64]
+    long: Array
+    ends: Samples
+
+    @classmethod
+    def of(cls, grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64], ends: Samples) -> _Edges:
+        start, long = grid.points(node), np.empty(len(axis))
+        for i, nodes in enumerate(grid.nodes):
+            along = np.flatnonzero(axis == i)
+            long[along] = np.diff(nodes).take(node[:, i].take(along))
+        return cls(start, axis, long, ends)
+
+    def some(self, which: NDArray[np.intp]) -> _Edges:
+        """Some of them."""
+        return _Edges(*(rows(values, which) for values in self))
+
+    def at(self, share: Array) -> Array:
+        """The points (n, 3) at those shares (n,) of the edges."""
+        points = self.start.copy(order="F")
+        points[np.arange(len(share)), self.axis] += self.long * share
+        return points
+
+
+def _on_edges(terms: Terms, edges: _Edges) -> tuple[Array, Array, Array]:
+    """Where edges meet the surface: the points (n, 3), the gradients there (n, 3), and the shares of the edges (n,).
 
     One Newton step from where the samples at the ends put it, as these are nearly linear; where that is not enough, a root.
     """
-    share = ends[:, 0] / (ends[:, 0] - ends[:, 1]).astype(float)
-    points = start + (end - start) * share[:, None]
-    values, slopes = near_linear_gradient(terms, points)
+    share = edges.ends[:, 0] / (edges.ends[:, 0] - edges.ends[:, 1]).astype(float)
+    values, slopes = near_linear_gradient(terms, edges.at(share))
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        step = -values / dots(slopes, end - start)
+        step = -values / (slopes[np.arange(len(share)), edges.axis] * edges.long)
         near = (np.abs(step) < _NEARLY) & (share + step > 0) & (share + step < 1)
-    share[near] += step[near]
+    share += np.where(near, step, 0.0)
     rest = np.flatnonzero(~near)
-    share[rest] = _roots(terms, start[rest], end[rest], ends[rest])
-    points = start + (end - start) * share[:, None]
+    share[rest] = _roots(terms, edges.some(rest))
+    points = edges.at(share)
     slopes[rest] = near_linear_gradient(terms, points[rest])[1]
     return points, slopes, share
 
@@ -78,22 +105,23 @@ def _held(grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64]) -> NDArr
     return held
 
 
-def _roots(terms: Terms, start: Array, end: Array, ends: Array | Samples) -> Array:
-    """Shares (n,) along edges at which the field is 0, by Chandrupatla's method (1997, Adv. Eng. Software 28).
+def _roots(terms: Terms, edges: _Edges) -> Array:
+    """Shares (n,) of edges at which the field is 0, by Chandrupatla's method (1997, Adv. Eng. Software 28).
 
-    `ends` (n, 2) are near-linear samples of opposite sign. The bracket of each root shrinks below `_PRECISE` of its edge, by
-    inverse quadratic interpolation where that is safe and by halves elsewhere.
+    The samples at the ends are of opposite sign. The bracket of each root shrinks below `_PRECISE` of its edge, by inverse
+    quadratic interpolation where that is safe and by halves elsewhere.
     """
-    ends = ends.astype(float)
+    ends = edges.ends.astype(float)
     share = np.where(ends[:, 0] == 0, 0.0, 1.0)
     active = np.flatnonzero((ends[:, 0] != 0) & (ends[:, 1] != 0))
+    edges = edges.some(active)
     a, b, c = np.ones(active.size), np.zeros(active.size), np.ones(active.size)
     fa, fb, fc = ends[active, 1], ends[active, 0], ends[active, 1]
     scale = np.abs(fa - fb)
     step = np.clip(np.abs(fa) / scale, 0.05, 0.95)  # a straight line first: the samples are nearly linear
     while active.size:
         x = a + step * (b - a)
-        f = near_linear(terms, log_ratio(terms, start[active] + (end[active] - start[active]) * x[:, None]))
+        f = near_linear(terms, log_ratio(terms, edges.at(x)))
         same = (f > 0) == (fa > 0)
         c, fc = np.where(same, a, b), np.where(same, fa, fb)
         b, fb = np.where(same, b, a), np.where(same, fb, fa)
@@ -104,6 +132,7 @@ def _roots(terms: Terms, start: Array, end: Array, ends: Array | Samples) -> Arr
         go_on = (margin <= 0.5) & (np.abs(f) > _PRECISE * 0.1 * scale)
         step = _step_share(a, b, c, fa, fb, fc, margin)[go_on]
         a, b, c, fa, fb, fc, scale, active = (values[go_on] for values in (a, b, c, fa, fb, fc, scale, active))
+        edges = edges.some(np.flatnonzero(go_on))
     return share
 
 

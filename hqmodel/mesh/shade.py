@@ -31,11 +31,11 @@ def colored(scene: Scene, terms: Terms, vertices: Array) -> NDArray[np.uint8]:
 def clothed(
     scene: Scene, terms: Terms, grid: Grid, vertices: Array, slopes: Array, faces: Triangles, within: NDArray[np.bool_]
 ) -> tuple[NDArray[np.float32], NDArray[np.uint8], NDArray[np.float32]]:
-    """Normals (V, 3), colours (V, 3), and how far faces' middles lie below the surface, (F,), on caps 0.
+    """Normals (V, 3), colours (V, 3), and how far faces' middles lie below the surface, (F,) quanta, on caps 0.
 
     `slopes` (V, 3) are the near-linear field's gradients; `within` (V,) tells the vertices within a cap.
     """
-    off = depths(terms, vertices, faces, lengths(slopes))
+    off = depths(terms, vertices, faces, lengths(slopes), grid.cell)
     off[on_caps(faces, vertices, grid)] = 0
     return with_caps(unit(-slopes), vertices, grid, within), colored(scene, terms, vertices), off
 

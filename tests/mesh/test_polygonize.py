@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from hqmodel.field import Terms, first_hits, log_ratio, near_linear_gradient, region
 from hqmodel.mesh import Mesh, MeshError, polygonize, report
-from hqmodel.mesh import cull as culling
 from hqmodel.model import Scene, Shape, Strip, Transform
 
 from ..cases import NAMES, case
@@ -142,12 +141,11 @@ def test_the_same_scene_gives_the_same_bytes() -> None:
 
 
 @pytest.mark.parametrize("name", ["composite_1", "convex_0", "truncated_tetrahedron"])
-def test_tiles_leave_no_trace(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The same triangles at any tile size, as a set, to the last bit."""
+def test_runs_of_blocks_leave_no_trace(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same triangles however the blocks are parted, as a set, to the last bit."""
     meshes = []
-    for tile in (16, 64, 128, 512):
-        monkeypatch.setattr(culling, "TILE", tile)
-        monkeypatch.setattr("hqmodel.mesh.build.TILE", tile)
+    for run in (40, 400, 3000, 10**6):
+        monkeypatch.setattr("hqmodel.mesh.build.RUN", run)
         meshes.append(polygonize(case(name).scene, 70))
     corners = [{face.tobytes() for face in mesh.vertices[mesh.faces]} for mesh in meshes]
     assert len(corners[0]) == len(meshes[0].faces)
