@@ -72,6 +72,7 @@ class Clay(Outside):
         after = files.load(self.preset)
         self.keys("ctrl+z")
         assert self.saved() == self.before
+        time.sleep(0.5)  # a key in the same slow frame in which Ctrl was let go would count as pressed with it
         return after
 
 
