@@ -64,8 +64,9 @@ window.run()
 
 
 def test_a_home_that_cannot_be_written_to_is_no_error(display: str, tmp_path: Path) -> None:
-    """A file stands where the folder of the settings would be: not even root can write there."""
-    (tmp_path / "config").write_text("in the way")
+    """Files stand where the folders for settings, copies and pictures would be: not even root can write there."""
+    for name in ("config", "state", "cache"):
+        (tmp_path / name).write_text("in the way")
     command = [sys.executable, "-m", "tests.app.drive", "tests.app.scenarios:turns_and_resets", str(tmp_path)]
     environment = surroundings(display, tmp_path)
     ended = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=SECONDS)
