@@ -41,7 +41,7 @@ test: system-test $(VENV)/.installed-for-tests
 
 # The core's tests with the oldest versions that pyproject.toml permits, in an environment of its own.
 OLDEST := $(VENV)-oldest
-CORE := $(addprefix tests/,field model edit files mesh outline cli gpu test_memory.py test_package.py)
+CORE := $(addprefix tests/,field model edit files mesh outline cli gpu reliability/test_resources.py test_memory.py test_package.py)
 
 test-oldest: system-test $(OLDEST)/.installed
 	$(OLDEST)/bin/python -m pytest -n 2 $(CORE)
