@@ -61,7 +61,8 @@ def finished(
     if tolerance is not None or share < len(faces):
         if tolerance is not None:
             off = _off(terms, grid, vertices, faces) * (QUANTUM * grid.cell)
-            vertices, faces, error = adapted(Surface(terms, planes, grid.cell, still), vertices, faces, off, mirrored, tolerance)
+            surface = Surface(terms, planes, len(grid.cuts), grid.cell, still)
+            vertices, faces, error = adapted(surface, vertices, faces, off, mirrored, tolerance)
         else:
             vertices, faces = _fewer(terms, grid, vertices, faces, mirrored, planes, share, still)
         within = np.ones(len(vertices), dtype=bool)

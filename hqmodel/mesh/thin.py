@@ -17,8 +17,8 @@ from .build import USUAL_RESOLUTION
 from .grid import make_grid
 from .mesh import Array
 
-# Places looked at in each shape's middle planes, and the share of those near its surface at which it has to be missed.
-_PLACES, _SHARE, _FEWEST = 400, 0.05, 10
+# Places looked at in each shape's middle planes, and at how many, and what share of them, it has to be missed.
+_PLACES, _FEWEST, _SHARE = 400, 10, 0.05
 # Sheets thicker than so many times what the grid is sure to see are not looked at.
 _THICK = 1.25
 _HALVINGS = 20
@@ -87,10 +87,9 @@ class _Look:
             return (log_ratio(self._terms, places + np.multiply.outer(share, across * normal)) > 0) == side
 
         places = places[within(0.0)]
-        near = ~within(2.0) | ~within(-2.0)
         missed = ~within(_THICK / 2) & ~within(-_THICK / 2)
         missed &= (log_ratio(self._terms, self._nodes_by(places, strip)) > 0) != side
-        if np.count_nonzero(missed) < max(_FEWEST, _SHARE * np.count_nonzero(near)):
+        if np.count_nonzero(missed) < max(_FEWEST, _SHARE * len(places)):
             return 0.0
         places = places[missed]
         width = np.zeros(len(places))
@@ -101,7 +100,7 @@ class _Look:
                 inside = within(way * middle)
                 low, high = np.where(inside, middle, low), np.where(inside, high, middle)
             width += high
-        return float(across * np.quantile(width, _SHARE))
+        return float(across * np.median(width))
 
     def _nodes_by(self, places: Array, strip: int) -> Array:
         """Of the grid line along the steepest axis that is nearest to each place (n, 3), the node nearest to the plane."""

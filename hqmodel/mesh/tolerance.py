@@ -72,7 +72,7 @@ def adapted(
     # First as far as quadrics alone warrant it: that is quick, and little is left to measure.
     for most, near in ((_SURELY, None), (_PERHAPS, surface.near(_MEANWHILE * tolerance))):
         vertices, faces, _ = stages[-1]
-        fewer = simplified(vertices, faces, 0, surface.flat(vertices), mirrored, place, most * tolerance, near, surface.still)
+        fewer = simplified(vertices, faces, 0, surface.flat(vertices) > 0, mirrored, place, most * tolerance, near, surface.still)
         stages.append(_refined(surface, *fewer, surface.off(*fewer), _AT_LAST * tolerance))
     errors = [float(np.max(away, initial=0.0)) for _, _, away in stages]
     best = max(stage for stage, error in enumerate(errors) if error <= max(tolerance, errors[0]))
@@ -99,22 +99,24 @@ def finer(cells: int, error: float, tolerance: float) -> int:
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """The true surface, where a grid of cells of size `cell` found it, cut off or mirrored in `planes` (axis, coordinate).
+    """The true surface, where a grid of cells of size `cell` found it.
 
+    Of the `planes` (axis, coordinate) the first `cuts` cut it off, and the others mirror it.
     `still` is called again and again; whatever it raises ends the work.
     """
 
     terms: Terms
     planes: list[Plane]
+    cuts: int
     cell: float
     still: Callable[[], None]
 
-    def flat(self, points: Array) -> Bools:
-        """Which coordinates (n, 3) of points lie in a plane."""
-        held = np.zeros(points.shape, dtype=bool)
-        for axis, plane in self.planes:
-            held[:, axis] |= points[:, axis] == plane
-        return held
+    def flat(self, points: Array) -> Indices:
+        """In which plane, numbered from 1, each coordinate of points lies, (n, 3); 0 for none."""
+        number = np.zeros(points.shape, dtype=np.intp)
+        for index, (axis, plane) in enumerate(self.planes):
+            number[points[:, axis] == plane, axis] = index + 1
+        return number
 
     def near(self, most: float) -> Callable[[Array, Array, Array], Bools]:
         """Tells which triangles, by their corners (n, 3) each, lie about within a distance."""
@@ -143,9 +145,9 @@ class Surface:
     def _measured(self, corners: Array, lattice: Array, steps: int) -> Array:
         """How far triangles, by their corners (3, n, 3), are off at most at a lattice's points, (n,); within caps they aren't."""
         flat = np.stack([self.flat(points) for points in corners])
-        capped = np.any(np.all(flat, axis=0), axis=1)
+        capped = np.any(_common(flat) & (flat[0] <= self.cuts), axis=1)
         points = np.tensordot(lattice, corners, axes=1)
-        held = np.stack([np.all(flat[weights > 0], axis=0) for weights in lattice])
+        held = np.stack([_common(flat[weights > 0]) for weights in lattice])
         distance = self._distance(points[:, ~capped].reshape(-1, 3), held[:, ~capped].reshape(-1, 3), steps)
         result = np.zeros(corners.shape[1])
         result[~capped] = np.max(distance.reshape(len(lattice), -1), axis=0)
@@ -156,6 +158,11 @@ class Surface:
             return lengths(to_surface(self.terms, points, self.cell, steps, held)[0] - points)
         linear, slope = near_linear_gradient(self.terms, points)
         return np.abs(linear) / np.maximum(lengths(np.where(held, 0.0, slope)), 1e-200)
+
+
+def _common(planes: Indices) -> Bools:
+    """Which coordinates (n, 3) lie in one plane at all of some points, whose planes are given (k, n, 3)."""
+    return np.all(planes == planes[0], axis=0) & (planes[0] > 0)
 
 
 def _lattice(parts: int) -> Array:
