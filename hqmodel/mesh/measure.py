@@ -34,7 +34,7 @@ def depths(terms: Terms, vertices: Array, faces: Triangles, slopes: Array, cell:
 
 
 def furthest(off: NDArray[np.float32]) -> NDArray[np.intp]:
-    """The numbers of those faces that are furthest off the surface: some thousandth of them, and none that are not off, as caps."""
+    """The numbers of those faces that are furthest off the surface: some thousandth of them, and none that is on it."""
     count = min(int(np.count_nonzero(off)), 200 + len(off) // 1000)
     return np.argpartition(np.abs(off), -count)[len(off) - count :] if count else np.empty(0, dtype=np.intp)
 
