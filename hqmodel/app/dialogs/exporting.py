@@ -143,12 +143,13 @@ def _reduction(settings: ExportSettings) -> ExportSettings:
 def _tolerance(settings: ExportSettings) -> ExportSettings:
     """How far from the true surface the mesh may be, instead of how fine and of how many triangles it is."""
     label("Within")
+    unit = f" {settings.unit}" if settings.unit else ""
     before, length = settings.tolerance is not None, settings.tolerance or _USUAL_SHARE * (settings.size or 1.0)
     _, wanted = imgui.checkbox("##within", before)
     imgui.same_line()
     imgui.begin_disabled(not wanted)
     imgui.set_next_item_width(-1)
-    _, length = imgui.input_double("##tolerance", length, 0.0, 0.0, f"%.6g {settings.unit or ''} of the true surface")
+    _, length = imgui.input_double("##tolerance", length, 0.0, 0.0, f"%.6g{unit} of the true surface")
     imgui.end_disabled()
     fewer = None if wanted and not before else settings.target_faces
     return replace(settings, tolerance=length if wanted and fewer is None else None, target_faces=fewer)
