@@ -13,8 +13,8 @@ from .mesh import MeshError
 from .tolerance import COARSE
 
 # Bytes that meshing, measuring and writing want at the most: for each triangle, or each that there was before they were
-# reduced; for each tile under way; and for the rest. Measured for bodies of all kinds and formats at 256 to 1,024 cells.
-_FACE, _REDUCED, _TILE, _REST = 150.0, 220.0, 4e7, 4e7
+# reduced; for each run of blocks under way; and for the rest. Measured for bodies of all kinds and formats at 256 to 1,024 cells.
+_FACE, _REDUCED, _RUN, _REST = 150.0, 220.0, 2e7, 4e7
 # More triangles than that, in squares of the resolution, no body was seen to have.
 _MOST = 60.0
 
@@ -54,4 +54,4 @@ def must_have_room(scene: Scene, resolution: int, reducing: bool = False) -> Non
 
 
 def _rest() -> float:
-    return _REST + _TILE * (os.cpu_count() or 1)
+    return _REST + _RUN * (os.cpu_count() or 1)
