@@ -35,7 +35,7 @@ class Recovery:
             writing, self._writing = self._writing, None
             error = writing.exception()
             if error is not None:
-                return f"No copy for safety: {error}"
+                return f"No copy for safety: {getattr(error, 'strerror', None) or error}"
         if not session.history.dirty:
             if self._kept is not None:
                 self._writer.submit(self._ring.clear)
