@@ -27,7 +27,7 @@ from .sight import camera_uniforms, cut_uniform, depth_range, light_uniforms
 from .studio import Shot, Studio, tile_side
 
 # Seconds that a draft should take: the next one's pixels are made coarser or finer for that.
-_DRAFT_SECONDS = 0.05
+_DRAFT_SECONDS = 0.035
 _COARSEST = 8
 # Samples a pixel of a finished picture: with light and shadow on a graphics card, and otherwise.
 _LIT_SAMPLES, _SAMPLES = 64, 16

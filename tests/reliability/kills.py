@@ -86,7 +86,7 @@ def traced_from_the_first_file() -> None:
             begun = True
         return atomic(path)
 
-    for module in ("hqmodel.cli.outputs", "hqmodel.files.dump"):
+    for module in ("hqmodel.files", "hqmodel.files.dump"):
         sys.modules[module].atomic = watched  # type: ignore[attr-defined]
 
 
