@@ -26,6 +26,7 @@ class Canvas:
     def __init__(self, ctx: moderngl.Context) -> None:
         self._preview = Preview(ctx)
         self._scene: Scene | None = None
+        self._hasty = False  # whether the scene is shown as it is while something is dragged
         self._drawn: tuple[View, tuple[int, int]] | None = None
         self._lit: Lit | None = None
         self.unfinished = True
@@ -45,14 +46,14 @@ class Canvas:
 
         What the strip `lit` shapes is shown in a warmer tint.
         """
-        if scene is not self._scene:
-            self._preview.show(scene)
-            self._scene, self._drawn = scene, None
+        quick = not budget
+        if scene is not self._scene or (self._hasty and not quick):
+            self._preview.show(scene, quick)
+            self._scene, self._hasty, self._drawn = scene, quick, None
         if self._drawn != (view, size):
             self._preview.draw(view.camera, size, view.mode, True, 0.0, view.cut, lit, view.ghosts)
             self._drawn, self.unfinished = (view, size), True
         elif (budget and self.unfinished) or lit != self._lit:
-            quick = not budget
             self.unfinished = self._preview.draw(view.camera, size, view.mode, quick, budget, view.cut, lit, view.ghosts)
         self._lit = lit
         return int(self._preview.texture.glo)

@@ -26,16 +26,21 @@ def box_bounds(terms: Terms, low: ArrayLike, high: ArrayLike) -> tuple[Array, Ar
 
 
 def box_tops(terms: Terms, low: ArrayLike, high: ArrayLike) -> Array:
-    """Only the upper bound of L, (n,), over the boxes from low to high, (n, 3) each: half the work where nothing carves."""
+    """Only the upper bound of L, (n,), over the boxes from low to high, (n, 3) each, with half the work."""
     low, high = np.asarray(low, dtype=float), np.asarray(high, dtype=float)
-    if not np.all(terms.positive) or not len(terms):
+    if not len(terms):
         return box_bounds(terms, low, high)[1]
     tops = np.empty(len(low))
+    sides = [(side, terms.keep(side), sign) for side, sign in ((terms.positive, 1), (~terms.positive, -1)) if side.any()]
     for here in _slices(terms, len(low)):
-        middle, reach = box_ranges(terms, low[here], high[here])
-        size = np.abs(middle)
-        t, pad = _exponents(terms, np.maximum(size - reach, 0.0), size + reach)
-        tops[here] = log_balance(terms, t + pad)
+        t = np.empty((len(terms), len(tops[here])))
+        for side, own, sign in sides:
+            middle, reach = box_ranges(own, low[here], high[here])
+            size = np.abs(middle)
+            least, most = np.maximum(size - reach, 0.0), size + reach
+            bound, pad = _exponents(own, *((least, most) if sign > 0 else (most, least)))
+            t[side] = bound + sign * pad
+        tops[here] = log_balance(terms, t)
     return tops
 
 

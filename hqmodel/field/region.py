@@ -50,9 +50,16 @@ class Region:
         return (self.low + self.high) / 2
 
 
-def region(scene: Scene, terms: Terms | None = None) -> Region:
-    """The region of a scene: its `bounds` if it has any, else worked out from the planes; tight to a few hundredths."""
+def region(scene: Scene, terms: Terms | None = None, loosely: bool = False) -> Region:
+    """The region of a scene: its `bounds` if it has any, else worked out from the planes; tight to a few hundredths.
+
+    `loosely`: of what could be body without the shapes that carve, which takes much less time where there are many.
+    """
     terms = Terms.of(scene) if terms is None else terms
+    if loosely and terms.level > 0 and not terms.positive.all():
+        uncarved = region(scene, terms.keep(terms.positive))
+        if uncarved.bounded:
+            return uncarved
     flat = scene.dimension == 2
     if scene.bounds is not None:
         start, bounded = np.array(scene.bounds, dtype=float), True

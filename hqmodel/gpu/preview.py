@@ -66,10 +66,10 @@ class Preview:
         """The picture as it stands."""
         return self._picture.shown
 
-    def show(self, scene: Scene) -> None:
-        """From now on draw this scene."""
+    def show(self, scene: Scene, quick: bool = False) -> None:
+        """From now on draw this scene; `quick`ly, in a region that may be larger than need be, while something is dragged."""
         self._terms = Terms.of(scene)
-        self.scene, self.region = scene, region(scene, self._terms)
+        self.scene, self.region = scene, region(scene, self._terms, loosely=quick)
         self._memory.write(scene, self._terms, self.region)
         self._floor = floor_height(self.ctx, self._memory, self.region)
         self._shot = None

@@ -29,6 +29,18 @@ def test_holds_the_body(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
+def test_loosely_it_holds_no_less(name: str) -> None:
+    scene = case(name).scene
+    loose, found = region(scene, loosely=True), region(scene)
+    assert loose.bounded
+    assert np.all(loose.low <= found.low + 0.05 * found.size)
+    assert np.all(loose.high >= found.high - 0.05 * found.size)
+    points = np.random.default_rng(6).uniform(-2.5, 2.5, (50_000, 3))
+    body = points[log_ratio(Terms.of(scene), points) > 0]
+    assert np.all((body >= loose.low) & (body <= loose.high))
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_is_tight(name: str) -> None:
     scene = case(name).scene
     found = region(scene)
@@ -70,6 +82,7 @@ def test_what_carves_all_that_is_far_away_bounds() -> None:
     found = region(Scene(shapes=(pipe, away)))
     assert found.bounded
     assert found.size[2] < 3
+    assert np.all(region(Scene(shapes=(pipe, away)), loosely=True).size == found.size)
 
 
 def test_bounds_cut() -> None:
