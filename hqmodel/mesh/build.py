@@ -44,7 +44,7 @@ FEWEST_FACES = 4
 # Samples this near to the level are rounding: fields that stay at their level throughout (an octahedron's slices) have no body.
 _ROUNDING = 1e-13
 # Neighbouring blocks that make one job: enough for NumPy's calls to be worth it, few enough to stay small in memory.
-RUN = 2000
+RUN = 2400
 # Seconds between two looks at whether a piece is done, or no longer wanted.
 _LOOK = 0.1
 # The coarsest step between numbers, as a share of the longest side.
