@@ -46,12 +46,13 @@ CORE := $(addprefix tests/,field model edit files mesh outline cli gpu reliabili
 test-oldest: system-test $(OLDEST)/.installed
 	$(OLDEST)/bin/python -m pytest -n 2 $(CORE)
 
-bench: system-run $(VENV)/.installed-for-benchmarks
+bench: system-test $(VENV)/.installed-for-benchmarks
 	$(BIN)/python -m benchmarks.meshers --cells 256 384 512
 	$(BIN)/python -m benchmarks.meshers --large
 	$(BIN)/python -m benchmarks.accuracy
 	$(BIN)/python -m benchmarks.accuracy --cells 128 --gamma 400
 	$(BIN)/python -m benchmarks.preview
+	LIBGL_ALWAYS_SOFTWARE=1 xvfb-run -a -s "-screen 0 1600x1000x24" $(BIN)/python -m benchmarks.dragging
 	$(BIN)/python -m benchmarks.solvers
 	$(BIN)/python -m benchmarks.fitting
 
