@@ -8,8 +8,6 @@ The real window on the display there is; frames are those it has drawn while the
 from __future__ import annotations
 
 import argparse
-import os
-import platform
 import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -22,6 +20,8 @@ from rich.table import Table
 from hqmodel.app import asks
 from hqmodel.files import load, save
 from tests.app import drive
+
+from .meshers import machine
 
 PRESETS = ["soft-die", "owl", "mug", "cottage"]
 _SLIDER = "//Properties/**/##shapes[0].hardness"
@@ -69,14 +69,13 @@ def main() -> None:
     parser.add_argument("presets", nargs="*", default=PRESETS)
     parser.add_argument("--size", default="1600x1000")
     parser.add_argument("--seconds", type=float, default=5.0)
-    parser.add_argument("--one", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args()
     width, height = map(int, options.size.split("x"))
     drive.SIZE = width, height
     _TIMES.append(options.seconds)
     console = Console(width=100)
     table = Table("preset", "shapes", "frames/s, empty", "frames/s, body", "share", title=f"dragging a slider at {options.size}")
-    print(f"{platform.processor() or platform.machine()}, {os.cpu_count()} cores")
+    print(machine())
     for name in options.presets:
         scene = load(name)
         with TemporaryDirectory() as folder:

@@ -106,7 +106,7 @@ def _mesh(scene: Scene, resolution: int, tell: Progress, target_faces: int | Non
         raise MeshError("no surface: the field does not reach its level anywhere at this resolution")
     still = partial(tell, 0.95, "Joining" if target_faces is None and tolerance is None else "Reducing")
     still()
-    mesh = finished(scene, terms, grid, weld, balance, mirrored, target_faces, tolerance, still)
+    mesh = finished(scene, terms, balance, weld, target_faces, tolerance, still)
     return replace(mesh, resolution=resolution)
 
 

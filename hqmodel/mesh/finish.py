@@ -15,11 +15,10 @@ from .creases import creased
 from .decimate import simplified
 from .grid import Grid
 from .manifold import parted
-from .measure import QUANTUM, depths, furthest, largest_distance
-from .mesh import Array, Mesh, Triangles, lengths, reflected, slices
+from .measure import QUANTUM, furthest, largest_distance
+from .mesh import Array, Mesh, Triangles, reflected, slices
 from .refine import to_surface
-from .shade import clothed, colored, on_caps, with_caps
-from .splits import Plane
+from .shade import clothed, colored, off_surface, on_caps, with_caps
 from .tolerance import Surface, adapted
 from .weld import Weld
 
@@ -27,10 +26,8 @@ from .weld import Weld
 def finished(
     scene: Scene,
     terms: Terms,
-    grid: Grid,
-    weld: Weld,
     balance: Balance,
-    mirrored: tuple[int, ...],
+    weld: Weld,
     target_faces: int | None,
     tolerance: float | None,
     still: Callable[[], None],
@@ -39,6 +36,7 @@ def finished(
 
     `still` is called again and again; whatever it raises ends the work.
     """
+    grid, mirrored = balance.grid, balance.mirrored
     vertices, faces, worst, normals = (weld.take(name) for name in ("vertices", "faces", "worst", "normals"))
     step = np.zeros(len(vertices), dtype=np.float32)
     step[weld.shared] = balance.steps(weld.pulls)
@@ -59,12 +57,13 @@ def finished(
     share = len(faces) if target_faces is None else target_faces // 2 ** len(mirrored)
     error = 0.0
     if tolerance is not None or share < len(faces):
+        surface = Surface(terms, planes, len(grid.cuts), grid.cell, still)
         if tolerance is not None:
-            off = _off(terms, grid, vertices, faces) * (QUANTUM * grid.cell)
-            surface = Surface(terms, planes, len(grid.cuts), grid.cell, still)
+            slopes = near_linear_gradient(terms, vertices)[1]
+            off = off_surface(terms, grid, vertices, slopes, faces) * (QUANTUM * grid.cell)
             vertices, faces, error = adapted(surface, vertices, faces, off, mirrored, tolerance)
         else:
-            vertices, faces = _fewer(terms, grid, vertices, faces, mirrored, planes, share, still)
+            vertices, faces = _fewer(surface, vertices, faces, mirrored, share)
         within = np.ones(len(vertices), dtype=bool)
         within[faces[~on_caps(faces, vertices, grid)]] = False
         slopes = near_linear_gradient(terms, vertices)[1]
@@ -81,31 +80,14 @@ def finished(
 
 
 def _fewer(
-    terms: Terms,
-    grid: Grid,
-    vertices: Array,
-    faces: Triangles,
-    mirrored: tuple[int, ...],
-    planes: list[Plane],
-    target: int,
-    still: Callable[[], None],
+    surface: Surface, vertices: Array, faces: Triangles, mirrored: tuple[int, ...], target: int
 ) -> tuple[Array, Triangles]:
     """Vertices and faces of the part with so many faces, what lies in the planes kept in them."""
-    held = np.zeros(vertices.shape, dtype=bool)
-    for axis, plane in planes:
-        held[:, axis] |= vertices[:, axis] == plane
 
     def place(points: Array, held: NDArray[np.bool_]) -> Array:
-        return to_surface(terms, points, grid.cell, 5, held)[0]
+        return to_surface(surface.terms, points, surface.cell, 5, held)[0]
 
-    return simplified(vertices, faces, target, held, mirrored, place, still=still)
-
-
-def _off(terms: Terms, grid: Grid, vertices: Array, faces: Triangles) -> NDArray[np.float32]:
-    """How far the middles of faces lie below the surface, (F,) quanta, on caps 0."""
-    off = depths(terms, vertices, faces, lengths(near_linear_gradient(terms, vertices)[1]), grid.cell)
-    off[on_caps(faces, vertices, grid)] = 0
-    return off
+    return simplified(vertices, faces, target, surface.flat(vertices) > 0, mirrored, place, still=surface.still)
 
 
 def _worst_of_parts(
@@ -114,5 +96,6 @@ def _worst_of_parts(
     """The worst of the faces, those that are parts of others measured anew; `worst` are the numbers of what they are parts of."""
     parts = np.flatnonzero(np.bincount(origin)[origin] > 1)
     corners, which = np.unique(faces[parts], return_inverse=True)
-    off = _off(terms, grid, vertices[corners], which.reshape(-1, 3).astype(np.int32))
+    points = vertices[corners]
+    off = off_surface(terms, grid, points, near_linear_gradient(terms, points)[1], which.reshape(-1, 3).astype(np.int32))
     return np.append(np.flatnonzero(np.isin(origin, np.setdiff1d(worst, origin[parts]))), parts[furthest(off)])

@@ -35,9 +35,15 @@ def clothed(
 
     `slopes` (V, 3) are the near-linear field's gradients; `within` (V,) tells the vertices within a cap.
     """
+    off = off_surface(terms, grid, vertices, slopes, faces)
+    return with_caps(unit(-slopes), vertices, grid, within), colored(scene, terms, vertices), off
+
+
+def off_surface(terms: Terms, grid: Grid, vertices: Array, slopes: Array, faces: Triangles) -> NDArray[np.float32]:
+    """How far the middles of faces lie below the surface, (F,) quanta, on caps 0; `slopes` (V, 3) as for `clothed`."""
     off = depths(terms, vertices, faces, lengths(slopes), grid.cell)
     off[on_caps(faces, vertices, grid)] = 0
-    return with_caps(unit(-slopes), vertices, grid, within), colored(scene, terms, vertices), off
+    return off
 
 
 def on_caps(faces: Triangles, vertices: Array, grid: Grid) -> NDArray[np.bool_]:
