@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from time import perf_counter
@@ -41,28 +42,36 @@ def figures(output: Output, only: Only = None, size: Size = 320, as_json: Json =
         raise Fault(f"{output}: expected a folder, or the name of a new one in a folder that exists", USAGE)
     from hqmodel import gpu  # late: a slip on the command line is told at once
 
-    from . import plates
-
     try:
-        ctx = gpu.offscreen()
+        with filling(output) as folder, progress(quiet) as report:
+            pictures = _filled(folder, chosen, size, report)
     except gpu.GpuError as error:
         raise Fault(str(error), MACHINE) from None
-    pictures = [f"{preset.name}.png" for preset in chosen]
-    with filling(output) as folder, progress(quiet) as report:
-        (folder / _PRESETS).mkdir()
-        sizes = []
-        for number, (preset, name) in enumerate(zip(chosen, pictures, strict=True)):
-            rows = plates.panels(load(preset.path), ctx, bands=preset.name.startswith(_BANDS))
-            drawn = plates.sheet(preset.title, rows, size, partial(_tell, report, number, len(chosen), preset.title))
-            drawn.save(folder / name, optimize=True)
-            sizes.append(drawn.size)
-            (folder / _PRESETS / preset.path.name).write_bytes(preset.path.read_bytes())
-        text = plates.page(list(zip(chosen, pictures, sizes, strict=True)), _PRESETS)
-        (folder / _PAGE).write_text(text, encoding="utf-8")
-    ctx.release()
     seconds = perf_counter() - started
     files = [str(output / name) for name in [*pictures, _PAGE]]
     tell({"files": files, "seconds": seconds}, f"{output / _PAGE}: {len(chosen)} figures, {seconds:.1f} s", as_json, quiet)
+
+
+def _filled(folder: Path, chosen: Sequence[Builtin], size: int, report: Report) -> list[str]:
+    """Put the pictures, their presets and the page into a folder; the pictures' names. Raises GpuError."""
+    from hqmodel import gpu
+
+    from . import plates
+
+    ctx = gpu.offscreen()
+    pictures = [f"{preset.name}.png" for preset in chosen]
+    (folder / _PRESETS).mkdir()
+    sizes = []
+    for number, (preset, name) in enumerate(zip(chosen, pictures, strict=True)):
+        rows = plates.panels(load(preset.path), ctx, bands=preset.name.startswith(_BANDS))
+        drawn = plates.sheet(preset.title, rows, size, partial(_tell, report, number, len(chosen), preset.title))
+        drawn.save(folder / name, optimize=True)
+        sizes.append(drawn.size)
+        (folder / _PRESETS / preset.path.name).write_bytes(preset.path.read_bytes())
+    text = plates.page(list(zip(chosen, pictures, sizes, strict=True)), _PRESETS)
+    (folder / _PAGE).write_text(text, encoding="utf-8")
+    ctx.release()
+    return pictures
 
 
 def _tell(report: Report, number: int, total: int, title: str, share: float) -> None:

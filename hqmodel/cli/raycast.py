@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 from time import perf_counter
-from typing import Annotated
+from typing import Annotated, TypeVar
 
 import numpy as np
 import typer
@@ -17,6 +17,8 @@ from .options import Json, Preset, Quiet, Set, Slice, scene_of
 from .outputs import checked, tell, writing
 from .progress import progress
 from .table import Array, Rows, header_of, rows, text_of
+
+T = TypeVar("T")
 
 COLUMNS = ("ox", "oy", "oz", "dx", "dy", "dz")
 
@@ -80,8 +82,15 @@ def _on_cpu(scene: Scene) -> Callable[[Array, Array], Array]:
 def _on_gpu(scene: Scene) -> Callable[[Array, Array], Array]:
     from hqmodel import gpu
 
+    context = _through_opengl(gpu.offscreen)
+    return lambda origins, directions: _through_opengl(lambda: gpu.raycast(scene, origins, directions, context))
+
+
+def _through_opengl(work: Callable[[], T]) -> T:
+    """What the work gives; Fault where there is no OpenGL, or it fails."""
+    from hqmodel.gpu import GpuError
+
     try:
-        context = gpu.offscreen()
-    except gpu.GpuError as error:
+        return work()
+    except GpuError as error:
         raise Fault(f"{error}; --cpu needs none", MACHINE) from None
-    return lambda origins, directions: gpu.raycast(scene, origins, directions, context)

@@ -79,11 +79,18 @@ def test_the_gpu_agrees(hqmodel: Command) -> None:
 
 @pytest.mark.parametrize(
     ("needed", "command"),
-    [("offscreen", ["raycast", "ball.json", "r.csv", "-o", "o.csv"]), ("render", ["render", "ball.json", "-o", "o.png"])],
+    [
+        ("offscreen", ["raycast", "ball.json", "r.csv", "-o", "o.csv"]),
+        ("raycast", ["raycast", "ball.json", "r.csv", "-o", "o.csv"]),
+        ("render", ["render", "ball.json", "-o", "o.png"]),
+        ("render", ["figures", "-o", "out", "--only", "12", "--size", "40"]),
+    ],
 )
 def test_a_machine_without_opengl_is_told_what_to_install(
     hqmodel: Command, monkeypatch: pytest.MonkeyPatch, needed: str, command: list[str]
 ) -> None:
+    """Whether it is found not to be there at first, or fails when it is drawn with."""
+
     def lacking(*_: object, **__: object) -> None:
         raise gpu.GpuError("OpenGL 3.3 is needed: install libegl1")
 

@@ -28,7 +28,7 @@ def font(size: int, style: str = "Regular") -> ImageFont.FreeTypeFont | ImageFon
     if toolkit is not None and toolkit.origin is not None:
         path = Path(toolkit.origin).parent / "assets" / "fonts" / "Roboto" / f"Roboto-{style}.ttf"
         if path.exists():
-            return ImageFont.truetype(path, size)
+            return ImageFont.truetype(str(path), size)  # which Pillow 10.1 wants
     return ImageFont.load_default(size)
 
 
