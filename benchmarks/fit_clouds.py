@@ -7,9 +7,10 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from hqmodel.field import Terms, first_hits, near_linear_gradient, region
-from hqmodel.model import Scene, Shape, Strip
+from hqmodel.model import Group, Scene, Shape, Strip
 
 Array = NDArray[np.float64]
 KINDS = ("clean", "noise", "outliers", "one side")
@@ -47,6 +48,18 @@ def random_convex(seed: int) -> Scene:
         for n in normals.tolist()
     )
     return Scene(shapes=(Shape(strips=tuple(strips)),))
+
+
+def random_superquadric(seed: int) -> Scene:
+    """Barr's superquadric, two strips of it a group, of convex exponents at random, in any position."""
+    rng = np.random.default_rng(seed)
+    inner, outer = 2 / rng.uniform(0.1, 1.9, size=2)
+    across = zip(Rotation.random(random_state=rng).as_matrix().tolist(), rng.uniform(0.5, 1.2, 3), (*("rim",) * 2, None), strict=True)
+    strips = (
+        Strip(normal=(n[0], n[1], n[2]), half_width=half, gamma=inner if group else outer, group=group, offset=rng.normal(scale=0.2))
+        for n, half, group in across
+    )
+    return Scene(shapes=(Shape(strips=tuple(strips), groups={"rim": Group(gamma=outer)}),))
 
 
 def true_points(scene: Scene, count: int, rng: np.random.Generator) -> Array:

@@ -30,7 +30,7 @@ from hqmodel.fit.solve import solved
 from hqmodel.fit.starts import held, random_sets
 from hqmodel.model import Scene
 
-from .fit_clouds import GOALS, KINDS, cloud, radial_errors, random_convex, reference_convex
+from .fit_clouds import GOALS, KINDS, cloud, radial_errors, random_convex, random_superquadric, reference_convex
 
 Row = dict[str, Any]
 _TOLERANCE = 2e-4
@@ -116,6 +116,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.fitting", description="How well fits find what is known.")
     parser.add_argument("--shapes", nargs="*", default=None, metavar="NAME")
     parser.add_argument("--random", type=int, default=8, metavar="N")
+    parser.add_argument("--superquadrics", type=int, default=4, metavar="N")
     parser.add_argument("--points", type=int, default=4000, metavar="N")
     parser.add_argument("--starts", type=int, default=24, metavar="N")
     parser.add_argument("--clouds", nargs="*", type=Path, default=[], metavar="FILE")
@@ -125,6 +126,7 @@ def main() -> int:
     console = Console()
     scenes = reference_convex() if options.shapes is None else {name: load(name) for name in options.shapes}
     scenes |= {f"random {seed}": random_convex(seed) for seed in range(options.random)}
+    scenes |= {f"superquadric {seed}": random_superquadric(seed) for seed in range(options.superquadrics)}
     rows = accuracy(scenes, options.points, console) if scenes else []
     if options.starts and scenes:
         rows += random_starts(scenes, options.starts, console)

@@ -32,18 +32,22 @@ class Bodies:
     h = normal . x + offset, the half-width being in the normal's length. Strips are sorted by the body they belong to. A
     mirrored body stands for two: its image in x = 0 is one more term of the sum, moved by the same numbers.
 
+    A lone body's last `grouped` strips may be a group, raised together: (sum |h|^g)^(G/g) (eqs. 7, 14). Then `gamma` has one
+    exponent for each strip before them, then G, then g.
+
     The first three strips of *framed* bodies stay at right angles and below the half-widths `widest`: so no body of a composite
     can grow through the others into a place where no point tells of it.
     """
 
     normal: Array  # (S, 3)
     offset: Array  # (S,)
-    gamma: Array  # (S,)
+    gamma: Array  # (S,), of a body with a group (S - grouped + 2,)
     owner: Indices  # (S,) the body of each strip
     hardness: Array  # (K,)
     sign: Array  # (K,) 1.0 adds, -1.0 carves
     mirrored: NDArray[np.bool_]  # (K,)
     widest: Array | None = None  # (K, 3) the largest half-widths of framed bodies
+    grouped: int = 0
 
     @classmethod
     def lone(cls, normal: Array, offset: Array, gamma: Array, hardness: float = 1.0, sign: float = 1.0) -> Bodies:
@@ -59,6 +63,11 @@ class Bodies:
         """Whether the bodies are."""
         return self.widest is not None
 
+    @property
+    def own_gamma(self) -> Array:
+        """(S,) the exponent of each strip, a group's inner one where it is in a group."""
+        return np.concatenate([self.gamma[: len(self.owner) - self.grouped], np.repeat(self.gamma[-1], self.grouped)])
+
     @cached_property
     def start(self) -> Indices:
         """(K,) each body's first strip."""
@@ -73,7 +82,7 @@ class Bodies:
     def size(self) -> int:
         """How many numbers are free: those of `moved`."""
         count, bodies = len(self.owner), len(self)
-        return 5 * count + (bodies if bodies > 1 else 0) - (3 * bodies if self.framed else 0)
+        return 4 * count + len(self.gamma) + (bodies if bodies > 1 else 0) - (3 * bodies if self.framed else 0)
 
     def moved(self, step: Array) -> Bodies:
         """The bodies after a step of all free numbers: normals, offsets, ln gamma, and of several bodies ln hardness.
@@ -83,13 +92,13 @@ class Bodies:
         if self.framed:
             return self._frames_moved(step)
         count = len(self.owner)
-        normal, offset, gamma, hardness = np.split(step, [3 * count, 4 * count, 5 * count])
+        normal, offset, gamma, hardness = np.split(step, [3 * count, 4 * count, 4 * count + len(self.gamma)])
         moved = replace(self, normal=self.normal + normal.reshape(-1, 3), offset=self.offset + offset)
         return moved._pressed(gamma, hardness, GAMMAS)
 
     def held(self, step: Array) -> NDArray[np.bool_]:
         """(size,) which numbers of a step would only lead out of their range."""
-        count, bodies = len(self.owner), len(self)
+        count, bodies = len(self.gamma), len(self)
         held = np.zeros(self.size, dtype=bool)
         behind = bodies if bodies > 1 else 0
         gamma, hardness = np.split(np.arange(self.size - count - behind, self.size), [count])
@@ -195,8 +204,8 @@ class Bodies:
         )
 
     def with_strip(self, body: int, normal: Array, offset: float, gamma: float) -> Bodies:
-        """One strip more at the end of a body's."""
-        at = int(np.searchsorted(self.owner, body, side="right"))
+        """One strip more at the end of a body's, before its group."""
+        at = int(np.searchsorted(self.owner, body, side="right")) - self.grouped
         return replace(
             self,
             normal=np.insert(self.normal, at, normal, axis=0),
@@ -204,6 +213,13 @@ class Bodies:
             gamma=np.insert(self.gamma, at, gamma),
             owner=np.insert(self.owner, at, body),
         )
+
+    def with_group(self, chosen: NDArray[np.bool_]) -> Bodies:
+        """A lone body, so far without a group, with these (S,) of its strips for one; the same where their exponents agree."""
+        order = np.argsort(chosen, kind="stable")
+        shared = np.exp(np.mean(np.log(self.gamma[chosen])))
+        gamma = np.concatenate([self.gamma[~chosen], [shared, shared]])
+        return replace(self, normal=self.normal[order], offset=self.offset[order], gamma=gamma, grouped=int(chosen.sum()))
 
 
 def joined(parts: Sequence[Bodies]) -> Bodies:

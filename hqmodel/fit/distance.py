@@ -86,7 +86,8 @@ def _look(bodies: Bodies, points: Array) -> _Gauge | _Blend:
 class _Gauge:
     """A lone body by its gauge G, at which sum |h/G|^gamma = 1: a norm of the strips' h, linear along every ray from h = 0.
 
-    So G - 1 tells the distance well even far off and deep inside, where H itself does not. `by_h` and so on are those of -ln G.
+    So G - 1 tells the distance well even far off and deep inside, where H itself does not. A group has the norm of its strips'
+    h, with the inner exponent, for its h. `by_h` and so on are those of -ln G.
     """
 
     def __init__(self, bodies: Bodies, points: Array) -> None:
@@ -94,7 +95,12 @@ class _Gauge:
         h = bodies.normal @ points.T + bodies.offset[:, None]
         size = np.maximum(np.abs(h), _NEAR)
         log_h = np.log(size)
-        gamma = bodies.gamma[:, None]
+        first = len(h) - bodies.grouped
+        if bodies.grouped:
+            log_norm, weight = _norm(log_h[first:], bodies.gamma[-1])
+            stretch = np.sum(weight * (log_h[first:] - log_norm), axis=0)  # d ln norm by ln g
+            log_h = np.concatenate([log_h[:first], log_norm[None]])
+        gamma = bodies.gamma[: len(log_h), None]
         log_gauge = np.max(log_h, axis=0)
         for _ in range(_ROUNDS):  # Newton's steps on a convex function, from below
             power = np.exp(gamma * (log_h - log_gauge))
@@ -104,16 +110,19 @@ class _Gauge:
             if np.max(step) < _SHORT:
                 break
         self.log_gauge = log_gauge
-        self.pull = gamma * np.exp(gamma * (log_h - log_gauge))
-        self.pull /= -np.sum(self.pull, axis=0)
-        self.log_share = log_h - log_gauge
-        self.by_h = self.pull / size * np.sign(h)
+        pull = gamma * np.exp(gamma * (log_h - log_gauge))
+        pull /= -np.sum(pull, axis=0)
+        self.by_gamma = pull * (log_h - log_gauge)
+        if bodies.grouped:
+            self.by_gamma = np.concatenate([self.by_gamma, pull[first:] * stretch])
+            pull = np.concatenate([pull[:first], pull[first] * weight])
+        self.by_h = pull / size * np.sign(h)
         self.length, self.normal = _directed(bodies.normal.T @ self.by_h)
         self.distance = np.clip(-np.expm1(-log_gauge) / self.length, -FARTHEST, FARTHEST)
 
     def rows(self, points: Array, hardness: bool) -> Array:
         """-dln G by normals, offsets and ln gamma, one row each."""
-        return _rows(self.by_h, self.pull * self.log_share, points)
+        return _rows(self.by_h, self.by_gamma, points)
 
 
 class _Blend:
@@ -166,6 +175,14 @@ class _Blend:
         return np.concatenate([rows, self.share * self.t]) if hardness else rows
 
 
+def _norm(log_h: Array, inner: float) -> tuple[Array, Array]:
+    """ln (sum |h|^g)^(1/g) (N,) of ln |h| (S, N), and its derivatives (S, N) by them."""
+    top = np.max(log_h, axis=0)
+    power = np.exp(inner * (log_h - top))
+    total = np.sum(power, axis=0)
+    return top + np.log(total) / inner, power / total
+
+
 def _directed(slope: Array) -> tuple[Array, Array]:
     """The length (N,) of slopes (3, N), and the unit vectors (3, N) against them: outwards."""
     length = np.maximum(np.linalg.norm(slope, axis=0), 1e-12)
@@ -173,9 +190,9 @@ def _directed(slope: Array) -> tuple[Array, Array]:
 
 
 def _rows(by_h: Array, by_gamma: Array, points: Array) -> Array:
-    """Derivatives by normals, offsets and ln gamma, (5 S, N), of those by h and ln gamma, (S, N)."""
+    """Derivatives by normals, offsets and ln gamma, one row each, of those by h, (S, N), and ln gamma."""
     count = len(by_h)
-    result = np.empty((5 * count, len(points)))
+    result = np.empty((4 * count + len(by_gamma), len(points)))
     np.multiply(by_h[:, None], points.T, out=result[: 3 * count].reshape(count, 3, -1))
     result[3 * count : 4 * count] = by_h
     result[4 * count :] = by_gamma

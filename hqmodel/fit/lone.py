@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 
@@ -28,6 +29,8 @@ _FIRST, _SECOND, _BEST, _GROWN = 4, 10, 5, 3
 _FOUND = 1.2
 # Strips that are tried each time.
 _TRIED = 4
+# Groups that are refined, and the sine of the angle that strips along an axis may be off it.
+_GROUPS, _ALONG = 2, 0.15
 # Normals with such a cosine between them are tried once.
 _SAME = 0.9
 # Exponents that a new strip begins with.
@@ -73,6 +76,10 @@ class _Task:
     rng: np.random.Generator
     tell: Told
 
+    def found(self, solution: Solution) -> bool:
+        """Whether it is as good as it gets."""
+        return solution.noise.sigma < _FOUND * self.floor
+
     def solved(self, bodies: Bodies, evidence: Evidence, rounds: int, noise: Noise | None = None) -> Solution:
         """The bodies moved, telling at every step."""
         return solved(bodies, evidence, self.floor, rounds, noise, self.tell.again)
@@ -81,23 +88,24 @@ class _Task:
 def lone_body(cloud: Cloud, strips: int, floor: float, rng: np.random.Generator, tell: Told) -> tuple[Solution, list[Step]]:
     """The hyperquadric of at most so many strips that fits the cloud best, and how it came about.
 
-    A strip stays when it lowers Schwarz's criterion, n ln(likelihood) against 5 numbers more, on a sample of `MIDDLE` points.
+    A strip stays when it lowers Schwarz's criterion, n ln(likelihood) against 5 numbers more, on a sample of `MIDDLE` points;
+    so does a group of strips, which has no more numbers than they have apart.
     """
     coarse, middle = (evidence_of(cloud, count, rng) for count in (COARSE, MIDDLE))
     task = _Task(cloud, coarse, middle, strips, floor, rng, tell)
-    ends = []
-    for number, start in enumerate(_best_starts(task)):
-        tell(0.5 + 0.4 * number / _GROWN, "Adding strips")
-        ends.append(_finished(task, start))
-        if ends[-1][0].noise.sigma < _FOUND * floor:
-            break
+    ends = list[tuple[Solution, list[Step]]]()
+    begun = _best_starts(task)
+    for number, start in enumerate(begun):
+        tell(0.5 + 0.4 * number / len(begun), "Adding strips")
+        if not any(task.found(end) and end.bodies.size <= start.bodies.size for end, _ in ends):
+            ends.append(_finished(task, start))
     tell(0.9, "Refining")
     best, steps = min(ends, key=lambda end: _criterion(end[0], middle))
     return task.solved(best.bodies, evidence_of(cloud, FINE, rng), 40), steps
 
 
 def _best_starts(task: _Task) -> list[Solution]:
-    """The few best of many starts, refined."""
+    """The few best of many starts, refined; the best of three strips, which a group may do more for, comes first."""
     known = task.cloud.part(2 * MIDDLE)
     begun = []
     every = starts(known.points[known.trusted], known.normals[known.trusted], task.strips, task.rng)
@@ -107,32 +115,63 @@ def _best_starts(task: _Task) -> list[Solution]:
     begun.sort(key=lambda solution: _criterion(solution, task.coarse))
     begun = [task.solved(start.bodies, task.coarse, _SECOND, start.noise) for start in begun[: len(begun) // 3]]
     begun.sort(key=lambda solution: _criterion(solution, task.coarse))
+    simple = next((start for start in begun if len(start.bodies.owner) == 3), begun[0])
+    begun = [simple, *[start for start in begun if start is not simple]]
     refined = []
     for number, solution in enumerate(begun[:_BEST]):
         task.tell(0.4 + 0.1 * number / _BEST, "Refining starts")
         refined.append(task.solved(solution.bodies, task.middle, 25))
-    found = {round(_criterion(solution, task.middle)): solution for solution in refined}  # several come to the same
-    return [found[criterion] for criterion in sorted(found)[:_GROWN]]
+    found = {round(_criterion(solution, task.middle)): solution for solution in refined[1:]}  # several come to the same
+    found.pop(round(_criterion(refined[0], task.middle)), None)
+    return [refined[0], *[found[criterion] for criterion in sorted(found)[:_GROWN]]]
 
 
 def _finished(task: _Task, start: Solution) -> tuple[Solution, list[Step]]:
-    """With strips added as long as they earn their place, and without those that can go."""
+    """With a group and strips added as long as they earn their place, and without those that can go."""
     best, steps = start, [Step(f"{len(start.bodies.owner)} strips to begin with", 0.0)]
-    while (count := len(best.bodies.owner)) < task.strips and (trial := _with_best_strip(task, best)):
-        gain = _criterion(best, task.middle) - _criterion(trial, task.middle)
-        if gain <= WORTH:
-            break
+
+    def earned(trial: Solution | None, what: str) -> bool:
+        nonlocal best
+        gain = 0.0 if trial is None else _criterion(best, task.middle) - _criterion(trial, task.middle)
+        if trial is None or gain <= WORTH:
+            return False
         best = trial
-        steps.append(Step(f"strip {count + 1} added", gain))
-    for strip in reversed(range(len(best.bodies.owner))):
+        steps.append(Step(what, gain))
+        return True
+
+    earned(_with_best_group(task, best), "a group of strips")
+    while (count := len(best.bodies.owner)) < task.strips and earned(_with_best_strip(task, best), f"strip {count + 1} added"):
+        pass
+    for strip in reversed(range(len(best.bodies.owner) - best.bodies.grouped)):
         if len(best.bodies.owner) == 3:
             break
-        trial = task.solved(best.bodies.without_strip(strip), task.middle, 15, best.noise)
-        gain = _criterion(best, task.middle) - _criterion(trial, task.middle)
-        if gain > WORTH:
-            best = trial
-            steps.append(Step("strip dropped", gain))
+        earned(task.solved(best.bodies.without_strip(strip), task.middle, 15, best.noise), "strip dropped")
+    if count > len(start.bodies.owner):
+        earned(_with_best_group(task, best), "a group of strips")
     return best, steps
+
+
+def _with_best_group(task: _Task, best: Solution) -> Solution | None:
+    """With the most promising of all groups, where there is none yet and anything is left to gain."""
+    if best.bodies.grouped or task.found(best):
+        return None
+    tried = [task.solved(bodies, task.coarse, 6) for bodies in groupings(best.bodies)]
+    tried.sort(key=lambda solution: _criterion(solution, task.coarse))
+    refined = [task.solved(solution.bodies, task.middle, 25, solution.noise) for solution in tried[:_GROUPS]]
+    return min(refined, key=lambda solution: _criterion(solution, task.middle))
+
+
+def groupings(bodies: Bodies) -> list[Bodies]:
+    """A lone body with a group: of every two of its strips, and of all that lie along one axis with those two."""
+    normal = bodies.normal / np.linalg.norm(bodies.normal, axis=1, keepdims=True)
+    number = np.arange(len(normal))
+    ways = {}
+    for one, other in combinations(number, 2):
+        axis = np.cross(normal[one], normal[other])
+        pair = (number == one) | (number == other)
+        along = pair | (np.abs(normal @ axis) < _ALONG * np.linalg.norm(axis))
+        ways |= {way.tobytes(): bodies.with_group(way) for way in (pair, along) if not way.all()}
+    return list(ways.values())
 
 
 def _with_best_strip(task: _Task, best: Solution) -> Solution | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hqmodel.model import Axis, Scene, Shape, Strip, Transform, Vector, vector
+from hqmodel.model import Axis, Group, Scene, Shape, Strip, Transform, Vector, vector
 
 from .bodies import Array, Bodies
 from .cloud import Frame
@@ -18,6 +18,7 @@ _COLORS: tuple[Vector, ...] = (
     (0.69, 0.54, 0.62),
     (0.63, 0.60, 0.56),
 )
+_GROUP = "group"
 _AXES: tuple[Axis, ...] = ("x", "y", "z")
 
 
@@ -43,9 +44,10 @@ def _shape(bodies: Bodies, k: int, frame: Frame, name: str, mirror: tuple[Axis, 
     half_width = frame.size / length
     offset = bodies.offset[own] * half_width - normal @ frame.centre
     middle = _rounded(_middle(normal, offset, half_width, frame), 1e-6 * frame.size)
+    group: list[str | None] = [None] * (len(normal) - bodies.grouped) + [_GROUP] * bodies.grouped
     strips = [
-        Strip(normal=vector(_rounded(n, 1e-9)), offset=_short(o), half_width=_short(s), gamma=_short(g, 6))
-        for n, o, s, g in zip(normal, offset + normal @ middle, half_width, bodies.gamma[own], strict=True)
+        Strip(normal=vector(_rounded(n, 1e-9)), offset=_short(o), half_width=_short(s), gamma=_short(g, 6), group=its)
+        for n, o, s, g, its in zip(normal, offset + normal @ middle, half_width, bodies.own_gamma[own], group, strict=True)
     ]
     return Shape(
         name=name,
@@ -54,6 +56,7 @@ def _shape(bodies: Bodies, k: int, frame: Frame, name: str, mirror: tuple[Axis, 
         color=_COLORS[k % len(_COLORS)],
         mirror=mirror,
         transform=Transform(translation=vector(middle)),
+        groups={_GROUP: Group(gamma=_short(bodies.gamma[-2], 6))} if bodies.grouped else {},
         strips=tuple(strips),
     )
 

@@ -37,6 +37,13 @@ def framed() -> Bodies:
     return Bodies(normal, offset, gamma, owner, np.array([3.0, 4.0]), np.ones(2), mirrored, np.ones((2, 3)))
 
 
+def with_group() -> Bodies:
+    """A body of four strips askew, two of them a group."""
+    rng = np.random.default_rng(5)
+    normal = rng.normal(size=(4, 3)) * 3
+    return Bodies.lone(normal, rng.normal(size=4) * 0.3, np.array([4.0, 3.0, 1.4, 6.0])).with_group(np.arange(4) % 3 == 0)
+
+
 def on_surface(bodies: Bodies, count: int = 2000) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
     points = np.random.default_rng(0).normal(size=(count, 3)) * 0.3
     for _ in range(60):
@@ -56,7 +63,7 @@ def test_a_sharp_box_is_as_far_beyond_its_edges_as_they_are() -> None:
     assert np.allclose(distances(lone(0.3, 200.0), points), expected, atol=5e-3)
 
 
-@pytest.mark.parametrize("bodies", [lone(0.3, 3.0), blend(mirrored=False), blend(mirrored=True), framed()])
+@pytest.mark.parametrize("bodies", [lone(0.3, 3.0), blend(mirrored=False), blend(mirrored=True), framed(), with_group()])
 def test_the_derivatives_are_those_of_the_distance(bodies: Bodies) -> None:
     points = on_surface(bodies)
     assert len(points) > 1000
@@ -70,7 +77,13 @@ def test_the_derivatives_are_those_of_the_distance(bodies: Bodies) -> None:
         assert np.quantile(error, 0.9) < 1e-4 * (1 + np.abs(row).max()), number
 
 
-@pytest.mark.parametrize("bodies", [lone(0.3, 3.0), blend(mirrored=False), blend(mirrored=True)])
+def test_a_group_of_like_exponents_changes_nothing() -> None:
+    points = np.random.default_rng(1).normal(size=(500, 3))
+    alone = lone(0.4, 3.0)
+    assert np.allclose(distances(alone.with_group(np.array([True, False, True])), points), distances(alone, points), atol=1e-9)
+
+
+@pytest.mark.parametrize("bodies", [lone(0.3, 3.0), blend(mirrored=False), blend(mirrored=True), with_group()])
 @pytest.mark.parametrize("axis", [None, 0, 1])
 def test_the_scene_has_the_same_surface(bodies: Bodies, axis: int | None) -> None:
     rotation = np.roll(AXES, axis, axis=1) if axis else np.eye(3)
