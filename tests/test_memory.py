@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import resource
 import subprocess
@@ -13,7 +14,10 @@ import pytest
 
 from hqmodel import memory, mesh
 from hqmodel.edit import new_scene
+from hqmodel.fit import FitError, read
+from hqmodel.fit.room import must_have_room
 from hqmodel.mesh import MeshError
+from hqmodel.mesh.room import quads_must_have_room
 
 GB = 10**9
 
@@ -72,6 +76,49 @@ def test_what_is_refused_for_want_of_memory_and_what_would_fit(monkeypatch: pyte
         mesh.must_have_room(new_scene(), int(found[1]), reducing=True)
 
 
+@pytest.mark.parametrize("free", [3e8, 1e9])
+def test_a_radial_grid_is_refused_and_what_would_fit_is_not(monkeypatch: pytest.MonkeyPatch, free: float) -> None:
+    monkeypatch.setattr(memory, "available", lambda: free)
+    with pytest.raises(MeshError, match=r"^resolution: expected at most \d+ in the .+ free, got 4096, which") as caught:
+        mesh.radial_quads(new_scene(), 4096)
+    found = re.search(r"at most (\d+)", str(caught.value))
+    assert found
+    quads_must_have_room(int(found[1]))
+    with pytest.raises(MeshError):
+        quads_must_have_room(int(found[1]) + 1)
+
+
+HEADER = "ply\nformat {} 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+# Files of a hundred million points or so each, of which only the beginning is there: the rest is a hole.
+CLOUDS = {
+    "a.ply": (HEADER.format("binary_little_endian", 500_000_000), 6 * GB, "points"),
+    "b.ply": (HEADER.format("ascii", 500_000_000), 15 * GB, "points"),
+    "c.ply": ("ply\nformat ascii 1.0\nelement vertex 5\nelement face 100000000\n", 9 * GB, "points and faces"),
+    "d.xyz": ("0.123456 0.123456 0.123456\n" * 4000, 15 * GB, "points"),
+    "e.obj": ("v 0.123456 0.123456 0.123456\n" * 4000, 15 * GB, "lines"),
+    "f.stl": (80 * "\0" + (10**8).to_bytes(4, "little").decode("latin-1"), 84 + 5 * GB, "triangles"),
+    "g.stl": ("facet normal 0 0 1\nvertex 1 0 0\nvertex 0 1 0\nvertex 0 0 1\n" * 2000, 15 * GB, "triangles"),
+    "h.xyz": ("", 15 * GB, "points"),
+}
+
+
+@pytest.mark.parametrize("name", CLOUDS)
+def test_clouds_are_refused_before_they_are_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    beginning, size, noun = CLOUDS[name]
+    path = tmp_path / name
+    path.write_text(beginning, encoding="latin-1")
+    os.truncate(path, size)
+    monkeypatch.setattr(memory, "available", lambda: float(GB))
+    with pytest.raises(FitError, match=rf"^expected at most [\d,]+ {noun} in the 1 GB of memory that are free, got ") as caught:
+        read(path)
+    fits, got = (int(number.replace(",", "")) for number in re.findall(r"(?:at most|got(?: about)?) ([\d,]+)", str(caught.value)))
+    assert 0 < fits < got
+    needed = re.search(r"about (\S+) GB$", str(caught.value))
+    assert needed
+    monkeypatch.setattr(memory, "available", lambda: 1.1 * GB * float(needed[1]))
+    must_have_room(path, path.suffix)
+
+
 def test_what_has_no_surface_is_left_to_the_mesher(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(memory, "available", lambda: 0.0)
     mesh.must_have_room(new_scene().changed(shapes=()), 64)
@@ -79,11 +126,18 @@ def test_what_has_no_surface_is_left_to_the_mesher(monkeypatch: pytest.MonkeyPat
 
 @pytest.mark.parametrize(
     "command",
-    [["export", "apple", "--resolution", "2000", "-o", "a.stl"], ["render", "apple", "--size", "8000x8000", "-o", "a.png"]],
+    [
+        ["export", "apple", "--resolution", "2000", "-o", "a.stl"],
+        ["render", "apple", "--size", "8000x8000", "-o", "a.png"],
+        ["fit", "cloud.xyz", "-o", "a.json"],
+    ],
 )
 def test_the_command_line_says_what_would_fit(tmp_path: Path, command: list[str]) -> None:
     """Within the shell's own limit, as with ulimit -v."""
     limit = 1_500_000_000
+    cloud = tmp_path / "cloud.xyz"
+    cloud.write_text("1 2 3\n" * 11_000)
+    os.truncate(cloud, 2 * GB)
     done = subprocess.run(
         [sys.executable, "-m", "hqmodel", *command],
         capture_output=True,
@@ -94,6 +148,7 @@ def test_the_command_line_says_what_would_fit(tmp_path: Path, command: list[str]
     )
     assert (done.returncode, done.stdout) == (1, "")
     assert re.fullmatch(
-        r".+: expected at most \S+ in the .+ of memory that are free, got \S+, which needs about .+\n", done.stderr
+        r".+: expected at most \S+( points)? in the .+ of memory that are free, got (about )?\S+, which needs? about .+\n",
+        done.stderr,
     )
-    assert not list(tmp_path.iterdir())
+    assert list(tmp_path.iterdir()) == [cloud]

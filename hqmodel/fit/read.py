@@ -11,6 +11,7 @@ import numpy as np
 
 from .bodies import Array
 from .cloud import FitError
+from .room import must_have_room
 
 FORMATS = (".ply", ".obj", ".stl", ".xyz")
 # Points that a mesh's surface is sampled by.
@@ -29,11 +30,12 @@ class Read(NamedTuple):
 def read(path: Path, seed: int = 0) -> Read:
     """The cloud in a file: .xyz, .ply, .obj or .stl. Of a mesh the surface, sampled evenly.
 
-    Raises FitError that says where in the file what is wrong, and OSError.
+    Raises FitError that says where in the file what is wrong, or how much of it would find room in memory, and OSError.
     """
     suffix = path.suffix.lower()
     if suffix not in FORMATS:
         raise FitError(f"expected a file name that ends in {', '.join(FORMATS)}, got {path.suffix or 'no ending'}")
+    must_have_room(path, suffix)
     return _text(path) if suffix == ".xyz" else _mesh(path, suffix, np.random.default_rng(seed))
 
 

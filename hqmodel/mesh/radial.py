@@ -27,6 +27,7 @@ from hqmodel.model import Scene
 from .build import Progress
 from .measure import depths, furthest, largest_distance
 from .mesh import Array, Mesh, MeshError, Quads, lengths, unit
+from .room import quads_must_have_room
 from .shade import colored
 
 Integers = NDArray[np.int64]
@@ -59,9 +60,10 @@ def radial_quads(scene: Scene, around: int = 256, progress: Progress | None = No
 
     `around`: how many quads there are round the equator, to the nearest multiple of 8. `faces` are the quads cut along their
     shorter diagonals. A scene that is its own mirror image gives a mesh that is, to the last bit. Raises MeshError where there
-    is no body, one that is cut, or one that is not star-shaped.
+    is no body, one that is cut, or one that is not star-shaped, and where there is no memory for it.
     """
     tell = progress or (lambda share, doing: None)
+    quads_must_have_room(around)
     tell(0.0, "Finding a centre")
     terms = Terms.of(scene)
     where = region(scene, terms)

@@ -15,6 +15,8 @@ from .tolerance import COARSE
 # Bytes that meshing, measuring and writing want at the most: for each triangle, or each that there was before they were
 # reduced; for each run of blocks under way; and for the rest. Measured for bodies of all kinds and formats at 256 to 1,024 cells.
 _FACE, _REDUCED, _RUN, _REST = 150.0, 220.0, 2e7, 4e7
+# The same for each quad of a radial grid, at 512 to 2,048 of them around.
+_QUAD = 600.0
 # More triangles than that, in squares of the resolution, no body was seen to have.
 _MOST = 60.0
 
@@ -33,11 +35,7 @@ def lack_of_room(coarse: int, resolution: int, reducing: bool) -> str:
     needed = rest + each * expected_faces(coarse, resolution)
     if needed <= free:
         return ""
-    fits = int(COARSE * sqrt(max(0.0, free - rest) / (each * coarse)))
-    return (
-        f"resolution: expected at most {fits} in the {memory.told(free)} of memory that are free, "
-        f"got {resolution}, which needs about {memory.told(needed)}"
-    )
+    return _lack(int(COARSE * sqrt(max(0.0, free - rest) / (each * coarse))), free, resolution, needed)
 
 
 def must_have_room(scene: Scene, resolution: int, reducing: bool = False) -> None:
@@ -51,6 +49,21 @@ def must_have_room(scene: Scene, resolution: int, reducing: bool = False) -> Non
     lack = lack_of_room(coarse, resolution, reducing)
     if lack:
         raise MeshError(lack)
+
+
+def quads_must_have_room(around: int) -> None:
+    """Raise MeshError where there is no memory for a radial grid with so many quads around: six faces of (around/4)^2."""
+    free, each = memory.available(), 6 * _QUAD / 16
+    needed = _REST + each * around**2
+    if needed > free:
+        raise MeshError(_lack(int(sqrt(max(0.0, free - _REST) / each)), free, around, needed))
+
+
+def _lack(fits: int, free: float, resolution: int, needed: float) -> str:
+    return (
+        f"resolution: expected at most {fits} in the {memory.told(free)} of memory that are free, "
+        f"got {resolution}, which needs about {memory.told(needed)}"
+    )
 
 
 def _rest() -> float:
