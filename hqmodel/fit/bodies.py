@@ -20,6 +20,7 @@ Indices = NDArray[np.intp]
 # differs from a plane by less than a hundredth of its half-width even at a corner, and its derivatives carry no more news.
 GAMMAS = 0.3, 200.0
 FRAMED_GAMMAS = 1.5, 30.0
+_LEAST_DUAL = 1.05
 HARDNESSES = 1.0, 30.0
 # What mirroring in x = 0 does to a point, or a normal.
 FLIP = np.array([-1.0, 1.0, 1.0])
@@ -220,6 +221,20 @@ class Bodies:
         shared = np.exp(np.mean(np.log(self.gamma[chosen])))
         gamma = np.concatenate([self.gamma[~chosen], [shared, shared]])
         return replace(self, normal=self.normal[order], offset=self.offset[order], gamma=gamma, grouped=int(chosen.sum()))
+
+    def without_group(self) -> Bodies:
+        """A body with a group with its strips apart, their exponents the group's."""
+        gamma = np.concatenate([self.gamma[:-2], np.full(self.grouped, self.gamma[-2])])
+        return replace(self, gamma=gamma, grouped=0)
+
+    def dual(self) -> Bodies:
+        """A body with a group of two turned to its diagonals, its inner exponent g / (g - 1): for g = 1, 2 and inf the same."""
+        inner = max(self.gamma[-1], _LEAST_DUAL)
+        turn = np.array([(1.0, 1.0), (1.0, -1.0)]) / 2 ** (1 - 1 / inner)
+        normal = np.concatenate([self.normal[:-2], turn @ self.normal[-2:]])
+        offset = np.concatenate([self.offset[:-2], turn @ self.offset[-2:]])
+        gamma = np.append(self.gamma[:-1], inner / (inner - 1))
+        return replace(self, normal=normal, offset=offset, gamma=gamma)
 
 
 def joined(parts: Sequence[Bodies]) -> Bodies:

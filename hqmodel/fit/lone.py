@@ -25,12 +25,12 @@ _HULL_POINTS = 300
 _BEYOND, _SOFT = 0.1, 0.3
 # Steps that all starts are tried by, and then the better third; starts that are refined, and those that strips are added to.
 _FIRST, _SECOND, _BEST, _GROWN = 4, 10, 5, 3
-# A deviation so many times the least is as good as it gets.
-_FOUND = 1.2
+# A deviation so many times the least, and so few outliers, are as good as it gets.
+_FOUND, _FEW = 1.2, 0.01
 # Strips that are tried each time.
 _TRIED = 4
-# Groups that are refined, and the sine of the angle that strips along an axis may be off it.
-_GROUPS, _ALONG = 2, 0.15
+# Starts of three strips that are tried with groups; groups that are refined, and the sine of the angle that strips along an axis may be off it.
+_SIMPLE, _GROUPS, _ALONG = 4, 2, 0.15
 # Normals with such a cosine between them are tried once.
 _SAME = 0.9
 # Exponents that a new strip begins with.
@@ -105,30 +105,32 @@ def lone_body(cloud: Cloud, strips: int, floor: float, rng: np.random.Generator,
 
 
 def _best_starts(task: _Task) -> list[Solution]:
-    """The few best of many starts, refined; the best of three strips, which a group may do more for, comes first."""
+    """The few best of many starts, those of three strips tried with groups as well, refined."""
     known = task.cloud.part(2 * MIDDLE)
     begun = []
     every = starts(known.points[known.trusted], known.normals[known.trusted], task.strips, task.rng)
     for number, bodies in enumerate(every):
-        task.tell(0.4 * number / len(every), "Trying starts")
+        task.tell(0.35 * number / len(every), "Trying starts")
         begun.append(task.solved(bodies, task.coarse, _FIRST))
     begun.sort(key=lambda solution: _criterion(solution, task.coarse))
+    simple = [solution.bodies for solution in begun if len(solution.bodies.owner) == 3][:_SIMPLE]
     begun = [task.solved(start.bodies, task.coarse, _SECOND, start.noise) for start in begun[: len(begun) // 3]]
+    task.tell(0.37, "Trying groups")
+    pairs = [bodies for start in simple for bodies in groupings(start)]
+    begun += [task.solved(bodies, task.coarse, _FIRST + _SECOND) for pair in pairs for bodies in (pair, pair.dual())]
     begun.sort(key=lambda solution: _criterion(solution, task.coarse))
-    simple = next((start for start in begun if len(start.bodies.owner) == 3), begun[0])
-    begun = [simple, *[start for start in begun if start is not simple]]
     refined = []
     for number, solution in enumerate(begun[:_BEST]):
         task.tell(0.4 + 0.1 * number / _BEST, "Refining starts")
         refined.append(task.solved(solution.bodies, task.middle, 25))
-    found = {round(_criterion(solution, task.middle)): solution for solution in refined[1:]}  # several come to the same
-    found.pop(round(_criterion(refined[0], task.middle)), None)
-    return [refined[0], *[found[criterion] for criterion in sorted(found)[:_GROWN]]]
+    found = {round(_criterion(solution, task.middle)): solution for solution in refined}  # several come to the same
+    return [found[criterion] for criterion in sorted(found)[:_GROWN]]
 
 
 def _finished(task: _Task, start: Solution) -> tuple[Solution, list[Step]]:
     """With a group and strips added as long as they earn their place, and without those that can go."""
-    best, steps = start, [Step(f"{len(start.bodies.owner)} strips to begin with", 0.0)]
+    group = f", {start.bodies.grouped} of them a group" if start.bodies.grouped else ""
+    best, steps = start, [Step(f"{len(start.bodies.owner)} strips to begin with{group}", 0.0)]
 
     def earned(trial: Solution | None, what: str) -> bool:
         nonlocal best
@@ -148,12 +150,17 @@ def _finished(task: _Task, start: Solution) -> tuple[Solution, list[Step]]:
         earned(task.solved(best.bodies.without_strip(strip), task.middle, 15, best.noise), "strip dropped")
     if count > len(start.bodies.owner):
         earned(_with_best_group(task, best), "a group of strips")
+    if best.bodies.grouped:
+        apart = task.solved(best.bodies.without_group(), task.middle, 15, best.noise)
+        if (gain := _criterion(best, task.middle) - _criterion(apart, task.middle)) > -WORTH:
+            best = apart
+            steps.append(Step("the group dissolved", gain))
     return best, steps
 
 
 def _with_best_group(task: _Task, best: Solution) -> Solution | None:
     """With the most promising of all groups, where there is none yet and anything is left to gain."""
-    if best.bodies.grouped or task.found(best):
+    if best.bodies.grouped or (task.found(best) and best.noise.outliers < _FEW):
         return None
     tried = [task.solved(bodies, task.coarse, 6) for bodies in groupings(best.bodies)]
     tried.sort(key=lambda solution: _criterion(solution, task.coarse))
