@@ -24,6 +24,13 @@ def _own_settings(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.
     yield
 
 
+@pytest.fixture(scope="session", autouse=True)
+def _shaders_kept(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """Mesa keeps the shaders that it has compiled, for the whole run: homes that are new would have every test compile them."""
+    folder: Path = tmp_path_factory.getbasetemp()
+    os.environ["MESA_SHADER_CACHE_DIR"] = str(folder.parent if "PYTEST_XDIST_WORKER" in os.environ else folder)
+
+
 @pytest.fixture(scope="session")
 def display() -> Iterator[str]:
     """The name of a display to open windows on; each of the suite's processes has one to itself."""
