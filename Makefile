@@ -1,5 +1,6 @@
 # make run    sets everything up and opens the modeller (without a display it renders and exports a preset into out/)
-# make test   sets everything up and runs every check                make test-oldest  its core with the oldest dependencies
+# make test   sets everything up and runs every check
+# make test-oldest  runs the core's with the oldest dependencies        make test-oldest-sample  runs a minute of them
 # make bench  runs the benchmarks        make reliability  the long runs behind docs/reliability.md
 # make clean  removes what these made
 
@@ -16,7 +17,7 @@ DISPLAYS := xvfb xauth xdotool
 SUITABLE := -c 'import sys, ensurepip; sys.exit(sys.version_info < (3, 11))' 2>/dev/null
 NEEDS_PYTHON := $(if $(wildcard $(BIN)/python),,$(shell for p in $(PYTHONS); do $$p $(SUITABLE) && exit; done; echo python3-venv))
 
-.PHONY: run test test-oldest demo bench reliability pictures goldens schema clean system-run system-test
+.PHONY: run test test-oldest test-oldest-sample demo bench reliability pictures goldens schema clean system-run system-test
 .DEFAULT_GOAL := run
 
 run: system-run $(VENV)/.installed
@@ -45,6 +46,14 @@ CORE := $(addprefix tests/,field model edit files mesh outline cli gpu reliabili
 
 test-oldest: system-test $(OLDEST)/.installed
 	$(OLDEST)/bin/python -m pytest -n 2 $(CORE)
+
+# A minute of them, in which each dependency has its part.
+SAMPLE := $(addprefix tests/,model $(addprefix field/test_,faces.py radial.py region.py) $(addprefix files/test_,load.py schema.py settings.py) \
+	mesh/test_formats.py outline/test_drawings.py $(addprefix cli/test_,animate.py export.py figures.py main.py) \
+	reliability/test_resources.py test_package.py)
+
+test-oldest-sample: system-test $(OLDEST)/.installed
+	$(OLDEST)/bin/python -m pytest -n 2 $(SAMPLE)
 
 bench: system-test $(VENV)/.installed-for-benchmarks
 	$(BIN)/python -m benchmarks.meshers --cells 256 384 512

@@ -15,7 +15,8 @@ __all__ = ["NoDisplay", "run"]
 def run(path: Path | None = None, change: Callable[[Scene], Scene] | None = None) -> None:
     """Open the window, with a preset if there is one and then a first edit to it; returns when it is closed.
 
-    Raises NoDisplay, one sentence, where no window can be opened. A preset that can't be read is told of in the window.
+    Raises NoDisplay, one sentence, where no window can be opened, or the driver loses it. A preset that can't be read is told
+    of in the window.
     """
     from hqmodel.files import Settings, lost
 

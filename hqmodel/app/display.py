@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import ctypes
 import sys
 import warnings
+from collections.abc import Callable
+from typing import Any
 
+LOST = "the graphics driver was reset, which the window does not survive; start hqmodel again"
 HEADLESS = "`hqmodel export`, `render`, `sample`, `raycast`, `check` and `presets` work without one"
 
 
@@ -32,6 +36,25 @@ def require() -> float:
             glfw.terminate()
 
 
+def ask_to_be_told() -> None:
+    """Have the next window's OpenGL tell when the driver has lost it; one that can't takes no notice."""
+    import glfw
+
+    glfw.init()  # which hello_imgui's own call leaves as it is, hints and all
+    glfw.window_hint(glfw.CONTEXT_ROBUSTNESS, glfw.LOSE_CONTEXT_ON_RESET)
+
+
+def loss_of(window: Any) -> Callable[[], bool]:
+    """What says whether the driver has lost the OpenGL of a window, which must be current: never, where it would not tell."""
+    import glfw
+
+    if glfw.get_window_attrib(window, glfw.CONTEXT_ROBUSTNESS) != glfw.LOSE_CONTEXT_ON_RESET:
+        return lambda: False
+    address: Any = glfw.get_proc_address("glGetGraphicsResetStatusARB")
+    status = ctypes.CFUNCTYPE(ctypes.c_uint)(address)
+    return lambda: status() != 0
+
+
 def _probe() -> float:
     """Opens a window that is never shown, with the OpenGL that the modeller asks for; the scale of letters on it.
 
@@ -39,6 +62,7 @@ def _probe() -> float:
     """
     import glfw
 
+    ask_to_be_told()
     for hint, value in ((glfw.VISIBLE, False), (glfw.CONTEXT_VERSION_MAJOR, 3), (glfw.CONTEXT_VERSION_MINOR, 3)):
         glfw.window_hint(hint, value)
     if sys.platform == "darwin":

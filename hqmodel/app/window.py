@@ -12,7 +12,7 @@ from imgui_bundle import hello_imgui, imgui
 
 from hqmodel.gpu import Legend, Seen
 
-from . import filing, layout, native, theme
+from . import display, filing, layout, native, theme
 from .asks import ChooseFile, Quit
 from .canvas import Canvas
 from .dialogs import front
@@ -62,8 +62,12 @@ class Window:
             self.params.dpi_aware_params.dpi_window_size_factor = scale
 
     def run(self) -> None:
-        """Until it is closed. Should drawing itself fail, what is not saved is kept before that goes on."""
+        """Until it is closed. Should drawing itself fail, what is not saved is kept before that goes on.
+
+        Raises NoDisplay where the driver loses the window's OpenGL.
+        """
         recovery = self.session.recovery
+        display.ask_to_be_told()
         try:
             hello_imgui.run(self.params)
         except BaseException:
@@ -140,6 +144,7 @@ class Window:
         self.canvas = Canvas(ctx)
         self.thumbnails = Thumbnails(ctx)
         self.window = glfw_window_hello_imgui()
+        self._is_lost = display.loss_of(self.window)
         glfw.set_drop_callback(self.window, self.dropped)  # type: ignore[arg-type]  # its stub has the C signature
 
     def dropped(self, _: object, paths: Sequence[str]) -> None:
@@ -149,6 +154,8 @@ class Window:
 
     def _before(self) -> None:
         """Ahead of each frame: what came from outside, the theme, the title, the panels shown, and whether to close."""
+        if self._is_lost():
+            raise display.NoDisplay(display.LOST)
         session = self.session
         session.poll()
         dropped, self._dropped = self._dropped, []

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from hqmodel import files
+from hqmodel.app.display import LOST
 from hqmodel.app.view import restored
 from hqmodel.edit import new_scene
 from hqmodel.model import Camera
@@ -61,6 +62,24 @@ window.run()
     kept = re.search(r"^hqmodel: what was not saved is in (.+)$", ended.stderr, re.MULTILINE)
     assert kept is not None
     assert [shape.name for shape in files.load(kept[1]).shapes] == ["Ball", "Block"]
+
+
+def test_when_the_driver_is_reset_the_work_is_kept(display: str, tmp_path: Path) -> None:
+    """As it says itself: nothing is seen of what is drawn from then on."""
+    code = """
+import sys
+from hqmodel.app import display
+from hqmodel.cli import run
+answers = iter([False, True])
+display.loss_of = lambda window: lambda: next(answers)
+sys.exit(run(["edit", "soft-die", "--set", "level=0.5"]))
+"""
+    environment = surroundings(display, tmp_path)
+    ended = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, timeout=SECONDS)
+    assert ended.returncode == 3
+    kept, told = ended.stderr.splitlines()
+    assert told == LOST
+    assert files.load(kept.removeprefix("hqmodel: what was not saved is in ")).level == 0.5
 
 
 def test_a_home_that_cannot_be_written_to_is_no_error(display: str, tmp_path: Path) -> None:
