@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from hqmodel.field import Terms, first_hits, near_linear_gradient, region
-from hqmodel.model import Group, Scene, Shape, Strip
+from hqmodel.model import Group, Scene, Shape, Strip, vector
 
 Array = NDArray[np.float64]
 KINDS = ("clean", "noise", "outliers", "one side")
@@ -54,10 +54,10 @@ def random_superquadric(seed: int) -> Scene:
     """Barr's superquadric, two strips of it a group, of convex exponents at random, in any position."""
     rng = np.random.default_rng(seed)
     inner, outer = 2 / rng.uniform(0.1, 1.9, size=2)
-    across = zip(Rotation.random(random_state=rng).as_matrix().tolist(), rng.uniform(0.5, 1.2, 3), (*("rim",) * 2, None), strict=True)
+    axes, halves = Rotation.random(random_state=rng).as_matrix(), rng.uniform(0.5, 1.2, 3).tolist()
     strips = (
-        Strip(normal=(n[0], n[1], n[2]), half_width=half, gamma=inner if group else outer, group=group, offset=rng.normal(scale=0.2))
-        for n, half, group in across
+        Strip(normal=vector(normal), half_width=half, gamma=gamma, group=group, offset=rng.normal(scale=0.2))
+        for normal, half, gamma, group in zip(axes, halves, (inner, inner, outer), ("rim", "rim", None), strict=True)
     )
     return Scene(shapes=(Shape(strips=tuple(strips), groups={"rim": Group(gamma=outer)}),))
 
@@ -94,16 +94,22 @@ def cloud(scene: Scene, kind: str, count: int, seed: int) -> Array:
 
 
 def radial_errors(fitted: Scene, truth: Scene, count: int = 2000) -> Array:
-    """How far (count,) the fitted surface is from points of the true one, along rays to its middle, as shares of its diagonal.
+    """How far (count,) the fitted surface is from points of the true one, along rays to its middle, as shares of its diagonal."""
+    points = true_points(truth, count, np.random.default_rng(count))
+    return radial(fitted, points, (points.min(axis=0) + points.max(axis=0)) / 2)
+
+
+def radial(fitted: Scene, points: Array, middle: Array) -> Array:
+    """How far (N,) the surface is from points (N, 3) along rays to a middle, as shares of their diagonal.
 
     Infinite where a ray misses.
     """
-    points = true_points(truth, count, np.random.default_rng(count))
-    low, high = points.min(axis=0), points.max(axis=0)
-    middle = (low + high) / 2
     terms = Terms.of(fitted)
-    distance = first_hits(terms, region(fitted, terms), middle + 4 * (points - middle), middle - points)
-    away = np.abs(distance - 3 * np.linalg.norm(points - middle, axis=1)) / np.linalg.norm(high - low)
+    diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
+    reach = np.linalg.norm(points - middle, axis=1)
+    out = (points - middle) / reach[:, None]
+    distance = first_hits(terms, region(fitted, terms), middle + 4 * diagonal * out, -out)
+    away = np.abs(4 * diagonal - distance - reach) / diagonal
     return np.where(np.isfinite(away), away, np.inf)
 
 

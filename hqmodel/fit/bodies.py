@@ -65,6 +65,11 @@ class Bodies:
         return self.widest is not None
 
     @property
+    def gammas(self) -> tuple[float, float]:
+        """What exponents are fitted between; bodies that can grow no wider are held to rounder ones."""
+        return FRAMED_GAMMAS if self.widest is not None and np.isfinite(self.widest).all() else GAMMAS
+
+    @property
     def own_gamma(self) -> Array:
         """(S,) the exponent of each strip, a group's inner one where it is in a group."""
         return np.concatenate([self.gamma[: len(self.owner) - self.grouped], np.repeat(self.gamma[-1], self.grouped)])
@@ -95,7 +100,7 @@ class Bodies:
         count = len(self.owner)
         normal, offset, gamma, hardness = np.split(step, [3 * count, 4 * count, 4 * count + len(self.gamma)])
         moved = replace(self, normal=self.normal + normal.reshape(-1, 3), offset=self.offset + offset)
-        return moved._pressed(gamma, hardness, GAMMAS)
+        return moved._pressed(gamma, hardness)
 
     def held(self, step: Array) -> NDArray[np.bool_]:
         """(size,) which numbers of a step would only lead out of their range."""
@@ -104,7 +109,7 @@ class Bodies:
         behind = bodies if bodies > 1 else 0
         gamma, hardness = np.split(np.arange(self.size - count - behind, self.size), [count])
         for numbers, value, (low, high) in (
-            (gamma, self.gamma, FRAMED_GAMMAS if self.framed else GAMMAS),
+            (gamma, self.gamma, self.gammas),
             (hardness, self.hardness[:behind], HARDNESSES),
         ):
             held[numbers] = (value <= low) & (step[numbers] < 0) | (value >= high) & (step[numbers] > 0)
@@ -146,7 +151,7 @@ class Bodies:
     def _frames_moved(self, step: Array) -> Bodies:
         first, further = self._frames()
         frames, normal, offset, gamma, hardness = np.split(
-            step, np.cumsum([9 * len(self), 3 * len(further), len(further), len(self.owner)])
+            step, np.cumsum([9 * len(self), 3 * len(further), len(further), len(self.gamma)])
         )
         shift, turn, width = np.split(frames.reshape(-1, 9), 3, axis=1)
         rotation = Rotation.from_rotvec(np.clip(turn, -0.5, 0.5)).as_matrix()
@@ -156,11 +161,11 @@ class Bodies:
         normals[first], offsets[first] = turned, -np.einsum("kai,ki->ka", turned, self.middles + shift)
         normals[further] += normal.reshape(-1, 3)
         offsets[further] += offset
-        return replace(self, normal=normals, offset=offsets)._pressed(gamma, hardness, FRAMED_GAMMAS)
+        return replace(self, normal=normals, offset=offsets)._pressed(gamma, hardness)
 
-    def _pressed(self, gamma: Array, hardness: Array, gammas: tuple[float, float]) -> Bodies:
+    def _pressed(self, gamma: Array, hardness: Array) -> Bodies:
         """With other exponents and, of several bodies, hardnesses."""
-        exponent = np.clip(self.gamma * np.exp(np.clip(gamma, -1.0, 1.0)), *gammas)
+        exponent = np.clip(self.gamma * np.exp(np.clip(gamma, -1.0, 1.0)), *self.gammas)
         if len(self) == 1:
             return replace(self, gamma=exponent)
         return replace(self, gamma=exponent, hardness=np.clip(self.hardness * np.exp(np.clip(hardness, -1.0, 1.0)), *HARDNESSES))
@@ -226,6 +231,16 @@ class Bodies:
         """A body with a group with its strips apart, their exponents the group's."""
         gamma = np.concatenate([self.gamma[:-2], np.full(self.grouped, self.gamma[-2])])
         return replace(self, gamma=gamma, grouped=0)
+
+    def squared(self) -> Bodies:
+        """A lone body with its first three strips put at right angles, and framed, of any width."""
+        length = np.linalg.norm(self.normal[:3], axis=1, keepdims=True)
+        u, _, v = np.linalg.svd(self.normal[:3] / length)
+        normal, offset = self.normal.copy(), self.offset.copy()
+        normal[:3] = u @ v * length
+        middle = np.linalg.solve(self.normal[:3], -self.offset[:3])
+        offset[:3] = -normal[:3] @ middle
+        return replace(self, normal=normal, offset=offset, widest=np.full((1, 3), np.inf))
 
     def dual(self) -> Bodies:
         """A body with a group of two turned to its diagonals, its inner exponent g / (g - 1): for g = 1, 2 and inf the same."""

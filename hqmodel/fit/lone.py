@@ -29,7 +29,8 @@ _FIRST, _SECOND, _BEST, _GROWN = 4, 10, 5, 3
 _FOUND, _FEW = 1.2, 0.01
 # Strips that are tried each time.
 _TRIED = 4
-# Starts of three strips that are tried with groups; groups that are refined, and the sine of the angle that strips along an axis may be off it.
+# Starts of three strips that are tried with groups; groups that are refined; and the sine of the angle that strips along an
+# axis may be off it.
 _SIMPLE, _GROUPS, _ALONG = 4, 2, 0.15
 # Normals with such a cosine between them are tried once.
 _SAME = 0.9
@@ -155,6 +156,8 @@ def _finished(task: _Task, start: Solution) -> tuple[Solution, list[Step]]:
         if (gain := _criterion(best, task.middle) - _criterion(apart, task.middle)) > -WORTH:
             best = apart
             steps.append(Step("the group dissolved", gain))
+    if len(best.bodies.owner) == 3:
+        earned(task.solved(best.bodies.squared(), task.middle, 15, best.noise), "strips put at right angles")
     return best, steps
 
 

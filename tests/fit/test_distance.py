@@ -63,7 +63,9 @@ def test_a_sharp_box_is_as_far_beyond_its_edges_as_they_are() -> None:
     assert np.allclose(distances(lone(0.3, 200.0), points), expected, atol=5e-3)
 
 
-@pytest.mark.parametrize("bodies", [lone(0.3, 3.0), blend(mirrored=False), blend(mirrored=True), framed(), with_group()])
+@pytest.mark.parametrize(
+    "bodies", [lone(0.3, 3.0), blend(mirrored=False), blend(mirrored=True), framed(), with_group(), with_group().squared()]
+)
 def test_the_derivatives_are_those_of_the_distance(bodies: Bodies) -> None:
     points = on_surface(bodies)
     assert len(points) > 1000
