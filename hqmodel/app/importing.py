@@ -36,13 +36,24 @@ class Fitted:
 
 
 class FitJob(Job[Fitted]):
-    """Fits hyperquadrics to a file's points or mesh; stopped, it changes nothing."""
+    """Fits hyperquadrics to a file's points or mesh; stopped, it changes nothing.
+
+    It writes nothing either: once it is stopped nobody has to wait until a file that is just being read is at its end.
+    """
 
     noun, aftermath = "Fit", "nothing was changed"
 
     def __init__(self, settings: ImportSettings, wake: Callable[[], None] = lambda: None) -> None:
         self.settings = settings
         super().__init__(wake)
+
+    @property
+    def running(self) -> bool:
+        return super().running and not self.cancelled
+
+    def wait(self, seconds: float | None = None) -> None:
+        if self.running:
+            super().wait(seconds)
 
     def _work(self) -> Fitted:
         from hqmodel.fit import fit, read

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import threading
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 
-from hqmodel.app.asks import ExportSettings
+from hqmodel.app.asks import ExportSettings, ImportSettings
 from hqmodel.app.export import ExportJob
+from hqmodel.app.importing import FitJob
 from hqmodel.edit import new_scene
 
 
@@ -41,3 +44,21 @@ def test_an_export_stopped_at_any_report_writes_nothing(tmp_path: Path, suffix: 
         number += 1
     assert path.read_bytes() != b"old"
     assert number > 12, "it reports while it meshes, joins, measures, and with every block it writes"
+
+
+def test_a_fit_is_stopped_while_its_file_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Which can take long: nobody waits for it."""
+    reading, end = threading.Event(), threading.Event()
+
+    def slowly(_: Path) -> None:
+        reading.set()
+        end.wait()
+
+    monkeypatch.setattr(import_module("hqmodel.fit"), "read", slowly)
+    job = FitJob(ImportSettings(Path("cloud.ply")))
+    reading.wait()
+    job.cancel()
+    job.wait()
+    assert not job.running
+    assert job.outcome is None
+    end.set()
