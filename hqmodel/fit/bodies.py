@@ -257,5 +257,7 @@ def joined(parts: Sequence[Bodies]) -> Bodies:
     before = np.cumsum([0, *[len(part) for part in parts]])
     owner = np.concatenate([part.owner + first for part, first in zip(parts, before, strict=False)])
     columns = ("normal", "offset", "gamma", "hardness", "sign", "mirrored", "widest")
-    normal, offset, gamma, *rest = (np.concatenate([getattr(part, name) for part in parts]) for name in columns)
-    return Bodies(normal, offset, gamma, owner, *rest)
+    normal, offset, gamma, hardness, sign, mirrored, widest = (
+        np.concatenate([getattr(part, name) for part in parts]) for name in columns
+    )
+    return Bodies(normal, offset, gamma, owner, hardness, sign, mirrored, widest)

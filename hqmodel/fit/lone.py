@@ -175,7 +175,7 @@ def groupings(bodies: Bodies) -> list[Bodies]:
     """A lone body with a group: of every two of its strips, and of all that lie along one axis with those two."""
     normal = bodies.normal / np.linalg.norm(bodies.normal, axis=1, keepdims=True)
     number = np.arange(len(normal))
-    ways = {}
+    ways = dict[bytes, Bodies]()
     for one, other in combinations(number, 2):
         axis = np.cross(normal[one], normal[other])
         pair = (number == one) | (number == other)

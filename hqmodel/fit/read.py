@@ -63,8 +63,13 @@ def _mesh(path: Path, suffix: str, rng: np.random.Generator) -> Read:
     except OSError:
         raise
     except Exception as error:  # whatever a damaged file makes of the reader
-        raise FitError(f"expected a {suffix[1:].upper()} file, got one that can't be read: {_line(error)}") from None
+        raise FitError(
+            f"expected a file of the format {suffix[1:].upper()}, got one that can't be read: {_line(error)}"
+        ) from None
     vertices = np.asarray(getattr(loaded, "vertices", np.empty((0, 3))), dtype=float)
+    told = getattr(loaded, "metadata", {}).get("_ply_raw", {}).get("vertex", {}).get("length", 0)
+    if len(vertices) < told:
+        raise FitError(f"header: expected {told:,} vertices as it says, got {len(vertices):,}")
     wrong = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
     if len(wrong):
         raise FitError(f"vertex {wrong[0]}: expected finite numbers, got {vertices[wrong[0]].tolist()}")

@@ -37,12 +37,18 @@ def test_a_file_without_a_cloud_is_told(hqmodel: Command, text: str) -> None:
     assert "fitted.json" not in files()
 
 
+SHORT = b"ply\nformat ascii 1.0\nelement vertex 1000\n%bend_header\n1 2 3\n4 5 6\n" % b"".join(
+    b"property float %c\n" % axis for axis in b"xyz"
+)
+
+
 @pytest.mark.parametrize(
     ("name", "content", "told"),
     [
         ("cloud.xyz", b"1 2 3\n4 5\n", "cloud.xyz: line 2: expected 3 numbers, got 2"),
         ("cloud.xyz", b"# x y z\n1 2 3\n4 nan 6\n", "cloud.xyz: line 3: expected finite numbers, got 'nan'"),
-        ("cloud.ply", b"not a PLY file at all\n", "cloud.ply: expected a PLY file, got one that can't be read: "),
+        ("cloud.ply", b"not a PLY file at all\n", "cloud.ply: expected a file of the format PLY, got one that can't be read: "),
+        ("cloud.ply", SHORT, "cloud.ply: header: expected 1,000 vertices as it says, got 2"),
         ("cloud.obj", b"", "cloud.obj: "),
         ("cloud.stl", b"\x00" * 90, "cloud.stl: "),
         ("cloud.json", b"{}", "cloud.json: expected a file name that ends in .ply, .obj, .stl, .xyz, got .json"),
