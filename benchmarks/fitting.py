@@ -1,11 +1,13 @@
 """How well and how fast `hqmodel.fit` finds what is known.
 
-    python -m benchmarks.fitting [--shapes NAME ...] [--random N] [--starts N] [--clouds FILE ...] [--parts N ...] [--json FILE]
+    python -m benchmarks.fitting [--shapes NAME ...] [--random N] [--superquadrics N] [--points N] [--starts N]
+        [--clouds FILE ...] [--parts N ...] [--json FILE]
 
-Clouds of `--points` points of the convex reference shapes (or presets named) and of `--random` random ones, each clean, with
-noise, among outliers and seen from one side: the median radial error against the true surface as a share of the diagonal, the
-strips used, and seconds. `--starts`: how many of so many random starts alone, refined without any search, end at the truth of a
-clean cloud. `--clouds`: files of points or meshes, and how far their points are from fits of so many parts.
+Clouds of `--points` points of the convex reference shapes (or presets named), of `--random` random ones and of random
+superquadrics, each clean, with noise, among outliers and seen from one side: the median radial error against the true surface
+as a share of the diagonal, the strips used, and seconds. `--starts`: how many of so many random starts alone, refined without
+any search, end at the truth of a clean cloud. `--clouds`: files of points or meshes, and how far their points are from fits of
+so many parts.
 """
 
 from __future__ import annotations
@@ -20,7 +22,9 @@ from typing import Any
 import numpy as np
 from rich.console import Console
 from rich.table import Table
+from scipy.optimize import minimize_scalar
 
+from hqmodel.edit import put
 from hqmodel.files import load
 from hqmodel.fit import fit, read
 from hqmodel.fit.cloud import prepared
@@ -30,7 +34,18 @@ from hqmodel.fit.solve import solved
 from hqmodel.fit.starts import held, random_sets
 from hqmodel.model import Scene
 
-from .fit_clouds import GOALS, KINDS, cloud, radial_errors, random_convex, random_superquadric, reference_convex
+from .fit_clouds import (
+    GOALS,
+    KINDS,
+    NOISE,
+    Array,
+    cloud,
+    radial_errors,
+    random_convex,
+    random_superquadric,
+    reference_convex,
+    true_points,
+)
 
 Row = dict[str, Any]
 _TOLERANCE = 2e-4
@@ -69,6 +84,32 @@ def random_starts(scenes: dict[str, Scene], tries: int, console: Console) -> lis
         table.add_row(name, f"{share:.0%}")
     console.print(table)
     return rows
+
+
+def thin_plate(plate: Scene, tries: int, count: int, console: Console) -> list[Row]:
+    """How near anything can come to a plate thinner than its noise: all is told of it but its thickness.
+
+    The likeliest half-width, a point's height being that of either face and the noise whose deviation is told, too.
+    """
+    true = plate.shapes[0].strips[2].half_width
+    errors = []
+    for seed in range(tries):
+        height = cloud(plate, "noise", count, seed)[:, 2]
+        points = true_points(plate, count, np.random.default_rng(seed))
+        sigma = NOISE * float(np.linalg.norm(np.ptp(points, axis=0)))
+
+        def unlikely(half: float, height: Array = height, sigma: float = sigma) -> float:
+            faces = (-0.5 * ((height - side * half) / sigma) ** 2 for side in (1, -1))
+            return -float(np.sum(np.logaddexp(*faces)))
+
+        half = float(minimize_scalar(unlikely, bounds=(0.2 * true, 3 * true), method="bounded").x)
+        found = put(plate, "shapes[0].strips[2].half_width", half)
+        errors.append(float(np.median(radial_errors(found, plate, 400))))
+    share = float(np.mean(np.array(errors) < GOALS["noise"]))
+    table = Table("told all but the thickness", "median", f"clouds within {GOALS['noise']:.1%}", title="thin plate, noise")
+    table.add_row(f"{tries} clouds", f"{np.median(errors):.3%}", f"{share:.0%}")
+    console.print(table)
+    return [{"shape": "thin_plate", "told all but the thickness": tries, "median": float(np.median(errors)), "share": share}]
 
 
 def parts(files: list[Path], counts: list[int], console: Console) -> list[Row]:
@@ -128,6 +169,8 @@ def main() -> int:
     scenes |= {f"random {seed}": random_convex(seed) for seed in range(options.random)}
     scenes |= {f"superquadric {seed}": random_superquadric(seed) for seed in range(options.superquadrics)}
     rows = accuracy(scenes, options.points, console) if scenes else []
+    if "thin_plate" in scenes:
+        rows += thin_plate(scenes["thin_plate"], 50, options.points, console)
     if options.starts and scenes:
         rows += random_starts(scenes, options.starts, console)
     if options.clouds:

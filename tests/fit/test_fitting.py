@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from benchmarks.fit_clouds import GOALS, cloud, radial_errors, true_points
+from benchmarks.fit_clouds import GOALS, cloud, radial_errors, random_superquadric, true_points
 from hqmodel.field import Terms, log_ratio
 from hqmodel.fit import FitError, fit
 from hqmodel.mesh import polygonize, report
@@ -33,6 +33,23 @@ def test_the_truth_is_found(name: str, kind: str) -> None:
     scene = case(name).scene
     fitted = fit(cloud(scene, kind, COUNT, 1), strips=4, seed=1)
     assert np.median(radial_errors(fitted.scene, scene)) < GOALS[kind]
+
+
+def test_a_superquadric_half_seen_is_found_as_one() -> None:
+    scene = random_superquadric(2)
+    found = fit(cloud(scene, "one side", 500, 1)).scene
+    assert np.median(radial_errors(found, scene)) < 1e-5
+    shape, true = found.shapes[0], scene.shapes[0]
+    assert [shape.groups[name].gamma for name in shape.groups] == pytest.approx([true.groups["rim"].gamma], rel=1e-3)
+    assert sorted(strip.gamma for strip in shape.strips) == pytest.approx(sorted(strip.gamma for strip in true.strips), rel=1e-3)
+    normals = np.array([strip.normal for strip in shape.strips])
+    assert normals @ normals.T == pytest.approx(np.eye(3), abs=1e-8)
+
+
+def test_where_no_group_is_needed_none_is_made() -> None:
+    shape = fit(ball(400) * (1.0, 0.7, 0.5)).scene.shapes[0]
+    assert not shape.groups
+    assert [strip.gamma for strip in shape.strips] == pytest.approx([2.0] * 3, rel=1e-3)
 
 
 def ball(count: int = COUNT) -> Array:
