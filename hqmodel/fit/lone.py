@@ -129,36 +129,52 @@ def _best_starts(task: _Task) -> list[Solution]:
 
 
 def _finished(task: _Task, start: Solution) -> tuple[Solution, list[Step]]:
-    """With a group and strips added as long as they earn their place, and without those that can go."""
-    group = f", {start.bodies.grouped} of them a group" if start.bodies.grouped else ""
-    best, steps = start, [Step(f"{len(start.bodies.owner)} strips to begin with{group}", 0.0)]
+    """With a group and strips added as long as they earn their place, and without what can go."""
+    grown = _Grown(task, start, [Step(_told(start.bodies), 0.0)])
+    grown.keeps(_with_best_group(task, start), "a group of strips")
+    while (count := len(grown.bodies.owner)) < task.strips:
+        if not grown.keeps(_with_best_strip(task, grown.best), f"strip {count + 1} added"):
+            break
+    for strip in reversed(range(count - grown.bodies.grouped)):
+        if len(grown.bodies.owner) > 3:
+            grown.keeps(grown.moved(grown.bodies.without_strip(strip)), "strip dropped")
+    if count > len(start.bodies.owner):
+        grown.keeps(_with_best_group(task, grown.best), "a group of strips")
+    if grown.bodies.grouped:
+        grown.keeps(grown.moved(grown.bodies.without_group()), "the group dissolved", -WORTH)
+    if len(grown.bodies.owner) == 3:
+        grown.keeps(grown.moved(grown.bodies.squared()), "strips put at right angles")
+    return grown.best, grown.steps
 
-    def earned(trial: Solution | None, what: str) -> bool:
-        nonlocal best
-        gain = 0.0 if trial is None else _criterion(best, task.middle) - _criterion(trial, task.middle)
-        if trial is None or gain <= WORTH:
+
+@dataclass(eq=False)
+class _Grown:
+    """The best so far, and how it came about."""
+
+    task: _Task
+    best: Solution
+    steps: list[Step]
+
+    @property
+    def bodies(self) -> Bodies:
+        return self.best.bodies
+
+    def moved(self, bodies: Bodies) -> Solution:
+        """The best, changed a little, settled again."""
+        return self.task.solved(bodies, self.task.middle, 15, self.best.noise)
+
+    def keeps(self, trial: Solution | None, what: str, worth: float = WORTH) -> bool:
+        """Whether a trial, if there is any, gains so much that it is the best from now on."""
+        gain = -np.inf if trial is None else _criterion(self.best, self.task.middle) - _criterion(trial, self.task.middle)
+        if trial is None or gain <= worth:
             return False
-        best = trial
-        steps.append(Step(what, gain))
+        self.best = trial
+        self.steps.append(Step(what, gain))
         return True
 
-    earned(_with_best_group(task, best), "a group of strips")
-    while (count := len(best.bodies.owner)) < task.strips and earned(_with_best_strip(task, best), f"strip {count + 1} added"):
-        pass
-    for strip in reversed(range(len(best.bodies.owner) - best.bodies.grouped)):
-        if len(best.bodies.owner) == 3:
-            break
-        earned(task.solved(best.bodies.without_strip(strip), task.middle, 15, best.noise), "strip dropped")
-    if count > len(start.bodies.owner):
-        earned(_with_best_group(task, best), "a group of strips")
-    if best.bodies.grouped:
-        apart = task.solved(best.bodies.without_group(), task.middle, 15, best.noise)
-        if (gain := _criterion(best, task.middle) - _criterion(apart, task.middle)) > -WORTH:
-            best = apart
-            steps.append(Step("the group dissolved", gain))
-    if len(best.bodies.owner) == 3:
-        earned(task.solved(best.bodies.squared(), task.middle, 15, best.noise), "strips put at right angles")
-    return best, steps
+
+def _told(bodies: Bodies) -> str:
+    return f"{len(bodies.owner)} strips to begin with" + (f", {bodies.grouped} of them a group" if bodies.grouped else "")
 
 
 def _with_best_group(task: _Task, best: Solution) -> Solution | None:
