@@ -17,7 +17,6 @@ from hqmodel.field import Terms
 
 from .measure import QUANTUM
 from .mesh import Array, Triangles, alike, dots, lengths, marks, unit
-from .refine import to_surface
 from .splits import Indices, Part, Plane
 
 # Ends whose normals' cosine is less than this look different ways.
@@ -68,16 +67,15 @@ def creased(
 
     `normals` (V, 3) are the vertices'; only edges between `sharp` vertices (V,) are looked at, and none between `pinched` ones
     (V,), as more than two faces may meet there. Edges in one of the `planes` (axis, coordinate) are split in it. `still` is
-    called now and then; whatever it raises ends the work.
+    called again and again; whatever it raises ends the work.
     """
     near = marks(sharp, faces) >= 2
     corners, which = np.unique(faces[near], return_inverse=True)
-    part = Part(terms, vertices[corners], which.reshape(-1, 3), planes)
+    part = Part(terms, vertices[corners], which.reshape(-1, 3), planes, still)
     edges = part.edges()
     edges = edges[np.all(sharp[corners[edges]], axis=1) & ~np.all(pinched[corners[edges]], axis=1)]
     for _ in range(_ROUNDS):
-        still()
-        part.split(*crossings(terms, part, edges, cell))
+        part.split(*crossings(part, edges, cell))
         edges = part.edges()
         edges = edges[edges[:, 1] >= len(corners)]
     if len(part.points) == len(corners):
@@ -91,14 +89,14 @@ def creased(
     )
 
 
-def crossings(terms: Terms, part: Part, edges: Indices, cell: float) -> tuple[Indices, Array]:
+def crossings(part: Part, edges: Indices, cell: float) -> tuple[Indices, Array]:
     """Those of the part's edges (n, 2) that have a crease between their ends, and where on it they are to be split."""
     first, second = _in_order(part.points, edges)
     a, b, held = part.points[first], part.points[second], part.held(edges)
     m, n = (unit(np.where(held, 0.0, part.normals[end])) for end in (first, second))
     rows = np.flatnonzero(dots(m, n) < _SHARP)
     a, b, held = a[rows], b[rows], held[rows]
-    points, last = to_surface(terms, _meeting(a, b, m[rows], n[rows], cell), 0.1 * cell, 8, held)
+    points, last = part.settled(_meeting(a, b, m[rows], n[rows], cell), 0.1 * cell, 8, held)
     along = b - a
     share = dots(points - a, along) / np.maximum(dots(along, along), 1e-300)
     away = lengths(points - a - share[:, None] * along)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
 from hqmodel.field import Terms, near_linear_gradient
 
-from .mesh import Array, crosses, dots, lengths, unit
+from .mesh import Array, crosses, dots, lengths, slices, unit
+from .refine import to_surface
 
 Indices = NDArray[np.intp]
 Plane = tuple[int, float]
@@ -21,17 +24,30 @@ class Part:
     """Faces (F, 3) of a mesh with vertices `points` (V, 3) numbered from 0, and the field's outward unit `normals` (V, 3) there.
 
     `origin` (F,) is the face that each was part of at first. Edges in one of the `planes` (axis, coordinate) are to stay there.
+    `still` is called again and again; whatever it raises ends the work.
     """
 
-    def __init__(self, terms: Terms, points: Array, faces: Indices, planes: list[Plane]) -> None:
-        self._terms, self._planes = terms, planes
+    def __init__(self, terms: Terms, points: Array, faces: Indices, planes: list[Plane], still: Callable[[], None]) -> None:
+        self._terms, self._planes, self._still = terms, planes, still
         self.points, self.faces = points, faces
         self.normals = self.looking(points)
         self.origin = np.arange(len(faces))
 
     def looking(self, points: Array) -> Array:
         """The field's outward unit normals (n, 3) at points."""
-        return unit(-near_linear_gradient(self._terms, points)[1])
+        normals = np.empty_like(points)
+        for here in slices(len(points)):
+            self._still()
+            normals[here] = unit(-near_linear_gradient(self._terms, points[here])[1])
+        return normals
+
+    def settled(self, points: Array, stride: float, rounds: int, held: NDArray[np.bool_]) -> tuple[Array, Array]:
+        """`to_surface`, for points (n, 3) of which coordinates are held."""
+        moved, last = np.empty_like(points), np.empty(len(points))
+        for here in slices(len(points)):
+            self._still()
+            moved[here], last[here] = to_surface(self._terms, points[here], stride, rounds, held[here])
+        return moved, last
 
     def edges(self) -> Indices:
         """All edges (n, 2), the lower vertex first."""
@@ -48,6 +64,7 @@ class Part:
     def split(self, edges: Indices, middles: Array) -> None:
         """Split edges (n, 2), given as `edges` gives them, at middles (n, 3), but for those that faces would suffer by."""
         while len(edges):
+            self._still()
             points = np.concatenate([self.points, middles])
             faces, parent, uses = _pieces(self.faces, edges, points)
             fresh = np.concatenate([self.normals, self.normals[edges[:, 0]] + self.normals[edges[:, 1]]])

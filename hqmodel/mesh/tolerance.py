@@ -183,7 +183,7 @@ def _refined(surface: Surface, vertices: Array, faces: Triangles, off: Array, mo
         marked[faces[bad]] = True
         near = marks(marked, faces) >= 2
         corners, which = np.unique(faces[near], return_inverse=True)
-        part = Part(surface.terms, vertices[corners], which.reshape(-1, 3), surface.planes)
+        part = Part(surface.terms, vertices[corners], which.reshape(-1, 3), surface.planes, surface.still)
         part.split(*_splits(surface, part, off[near], most))
         if len(part.points) == len(corners):
             break
@@ -204,9 +204,11 @@ def _splits(surface: Surface, part: Part, off: Array, most: float) -> tuple[Indi
     """
     bad = off > most
     sides = np.sort(np.stack([part.faces[bad], np.roll(part.faces[bad], -1, axis=1)], axis=2), axis=2)
-    edges, which = np.unique(sides.reshape(-1, 2), axis=0, return_inverse=True)
+    count = len(part.points)
+    numbers, which = np.unique(sides.reshape(-1, 2) @ (count, 1), return_inverse=True)
+    edges = np.stack(np.divmod(numbers, count), axis=1)
     a, b = part.points[edges.T]
-    middles, last = to_surface(surface.terms, (a + b) / 2, surface.cell, _STEPS, part.held(edges))
+    middles, last = part.settled((a + b) / 2, surface.cell, _STEPS, part.held(edges))
     length, away = lengths(b - a), lengths(middles - (a + b) / 2)
     of_side = which.reshape(-1, 3)
     by_length = np.max(away[of_side], axis=1) < 0.5 * off[bad]
@@ -214,8 +216,8 @@ def _splits(surface: Surface, part: Part, off: Array, most: float) -> tuple[Indi
     wanted = np.unique(of_side[np.arange(len(chosen)), chosen])
     ahead = dots(part.looking(middles), part.normals[edges].sum(axis=1)) > 0
     there = (last < _ARRIVED * surface.cell) & (away < 0.5 * length) & ahead
-    crossed, on_crease = crossings(surface.terms, part, edges[wanted], surface.cell)
-    rows = wanted[np.isin(edges[wanted] @ (len(part.points), 1), crossed @ (len(part.points), 1))]
+    crossed, on_crease = crossings(part, edges[wanted], surface.cell)
+    rows = wanted[np.isin(numbers[wanted], crossed @ (count, 1))]
     middles[rows], there[rows] = on_crease, True
     wanted = wanted[there[wanted]]
     return edges[wanted], middles[wanted]
