@@ -16,20 +16,24 @@ from collections.abc import Callable
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import monotonic, sleep
+from typing import Any
 
 import numpy as np
 
-from hqmodel import files
+from hqmodel import files, film
 from hqmodel.app.asks import ExportSettings
 from hqmodel.app.export import ExportJob
+from hqmodel.app.filming import FilmJob
+from hqmodel.app.jobs import Job
 from hqmodel.app.session import Session
 from hqmodel.gpu import offscreen
+from hqmodel.model import usual
 from tests.app.outside import surroundings
 from tests.app.tools.test_random import stirred
 from tests.reliability import kills, mutants, wild
 from tests.reliability.objects import alive_after
 
-MUTANTS, SCENES, PICTURES, STOPS, GESTURES, DRAWN = 250_000, 3000, 200, 30, 2000, 200
+MUTANTS, SCENES, PICTURES, STOPS, GESTURES, DRAWN = 250_000, 3000, 200, 12, 2000, 200
 
 
 def killed() -> object:
@@ -50,25 +54,49 @@ def numbers() -> object:
 
 
 def stopped() -> object:
-    """Exports stopped at random moments: seconds until they have."""
-    scene, moments, took = files.load("soft-die"), random.Random(1), []
+    """Work in the background stopped at random moments: seconds until it has."""
     with TemporaryDirectory() as folder:
-        path = Path(folder) / "die.3mf"
-        started = monotonic()
-        ExportJob(scene, ExportSettings(path)).wait()
-        whole = monotonic() - started
-        path.unlink()
-        for _ in range(STOPS):
-            job = ExportJob(scene, ExportSettings(path))
-            sleep(moments.uniform(0, 0.9 * whole))
-            asked = monotonic()
-            job.cancel()
-            job.wait()
-            took.append(monotonic() - asked)
-            assert job.outcome is None or job.progress == 1
-            assert not list(Path(folder).iterdir()) or job.progress == 1
-            path.unlink(missing_ok=True)
+        return {name: _stopped(name, Path(folder)) for name in WORKS}
+
+
+def _stopped(name: str, folder: Path) -> dict[str, float]:
+    """The median and the longest; nothing is written, as the work is always stopped before it could be done."""
+    moments, took = random.Random(1), []
+    started = monotonic()
+    WORKS[name](folder).wait()
+    whole = monotonic() - started
+    for file in folder.iterdir():
+        file.unlink()
+    for _ in range(STOPS):
+        job = WORKS[name](folder)
+        sleep(moments.uniform(0, 0.9 * whole))
+        asked = monotonic()
+        job.cancel()
+        job.wait()
+        took.append(monotonic() - asked)
+        assert job.outcome is None or job.progress == 1
+        assert not list(folder.iterdir()) or job.progress == 1
+        for file in folder.iterdir():
+            file.unlink()
     return {"median": round(sorted(took)[STOPS // 2], 3), "longest": round(max(took), 3)}
+
+
+def _exporting(preset: str, suffix: str, **how: Any) -> Callable[[Path], ExportJob]:
+    return lambda folder: ExportJob(files.load(preset), ExportSettings((folder / preset).with_suffix(suffix), **how))
+
+
+def _filming(folder: Path) -> FilmJob:
+    scene = files.load("soft-die")
+    return FilmJob(film.Plan(scene, usual(scene.dimension), None, True, 24, 2.0, (640, 480)), folder / "die.gif")
+
+
+WORKS: dict[str, Callable[[Path], Job[Any]]] = {
+    "soft-die .stl": _exporting("soft-die", ".stl"),
+    "soft-die .3mf": _exporting("soft-die", ".3mf"),
+    "owl .glb": _exporting("owl", ".glb"),
+    "owl of 50,000 triangles .obj": _exporting("owl", ".obj", target_faces=50_000),
+    "film of soft-die": _filming,
+}
 
 
 def soaked() -> object:
