@@ -88,22 +88,30 @@ def _cube(n: int) -> _Cube:
         points.append(n * np.array(out) + np.outer(2 * i - n, right) + np.outer(2 * j - n, up))
         cross.append(n * np.array(place) + np.stack([i, j], axis=1))
     cells = np.concatenate([cell + face * len(i) for face in range(len(_FACES))])
-    unique, which = np.unique(np.concatenate(points), axis=0, return_inverse=True)
-    unfolded, place_of = np.unique(np.concatenate(cross), axis=0, return_inverse=True)
-    return _Cube(unique, which.reshape(-1)[cells], unfolded, place_of.reshape(-1)[cells])
+    unique, which = _distinct(np.concatenate(points))
+    unfolded, place_of = _distinct(np.concatenate(cross))
+    return _Cube(unique, which[cells], unfolded, place_of[cells])
+
+
+def _distinct(rows: Integers) -> tuple[Integers, NDArray[np.intp]]:
+    """The rows (m, k) that differ, in order, and which of them each of (n, k) is, (n,): by a number for each, to be quick."""
+    low = rows.min(axis=0)
+    numbers = np.ravel_multi_index(tuple((rows - low).T), tuple(rows.max(axis=0) - low + 1))
+    _, first, which = np.unique(numbers, return_index=True, return_inverse=True)
+    return rows[first], which
 
 
 def _blown_up(scene: Scene, terms: Terms, where: Region, centre: Array, cube: _Cube, tell: Progress) -> Mesh:
     """The mesh about the centre: worked out on one side of the mirror planes, and put on the other by a change of sign."""
     n = int(np.max(cube.points))
     mirrored = np.isin(np.arange(3), mirror_axes(terms, where))
-    own, which = np.unique(np.where(mirrored, np.abs(cube.points), cube.points), axis=0, return_inverse=True)
+    own, which = _distinct(np.where(mirrored, np.abs(cube.points), cube.points))
     directions = unit(np.tan(np.pi / 4 * own / n))
     points = centre + _radii(terms, where, centre, directions, tell)[:, None] * directions
     slopes = near_linear_gradient(terms, points)[1]
     steepness = lengths(slopes)
     normals = np.where(steepness[:, None] > 0, unit(-slopes), directions)
-    which, signs = which.reshape(-1), np.where(mirrored & (cube.points < 0), -1.0, 1.0)
+    signs = np.where(mirrored & (cube.points < 0), -1.0, 1.0)
     vertices = points[which] * signs
     faces = _triangles(vertices, cube.cells, n)
     cell = float(np.max(where.size)) / n
