@@ -87,7 +87,7 @@ def _exporting(preset: str, suffix: str, **how: Any) -> Callable[[Path], ExportJ
 
 def _filming(folder: Path) -> FilmJob:
     scene = files.load("soft-die")
-    return FilmJob(film.Plan(scene, usual(scene.dimension), None, True, 24, 2.0, (640, 480)), folder / "die.gif")
+    return FilmJob(film.Plan(scene, usual(scene.dimension), None, True, 12, 1.0, (320, 240)), folder / "die.gif")
 
 
 WORKS: dict[str, Callable[[Path], Job[Any]]] = {
