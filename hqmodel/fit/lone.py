@@ -94,15 +94,16 @@ def lone_body(cloud: Cloud, strips: int, floor: float, rng: np.random.Generator,
     """
     coarse, middle = (evidence_of(cloud, count, rng) for count in (COARSE, MIDDLE))
     task = _Task(cloud, coarse, middle, strips, floor, rng, tell)
-    ends = list[tuple[Solution, list[Step]]]()
+    ends = list[_Grown]()
     begun = _best_starts(task)
     for number, start in enumerate(begun):
         tell(0.5 + 0.4 * number / len(begun), "Adding strips")
-        if not any(task.found(end) and end.bodies.size <= start.bodies.size for end, _ in ends):
-            ends.append(_finished(task, start))
+        if not any(task.found(end.best) and end.bodies.size <= start.bodies.size for end in ends):
+            ends.append(_grown(task, start))
     tell(0.9, "Refining")
-    best, steps = min(ends, key=lambda end: _criterion(end[0], middle))
-    return task.solved(best.bodies, evidence_of(cloud, FINE, rng), 40), steps
+    grown = min(ends, key=lambda end: _criterion(end.best, middle))
+    _tidy(task, grown)
+    return task.solved(grown.bodies, evidence_of(cloud, FINE, rng), 40), grown.steps
 
 
 def _best_starts(task: _Task) -> list[Solution]:
@@ -128,23 +129,28 @@ def _best_starts(task: _Task) -> list[Solution]:
     return [found[criterion] for criterion in sorted(found)[:_GROWN]]
 
 
-def _finished(task: _Task, start: Solution) -> tuple[Solution, list[Step]]:
-    """With a group and strips added as long as they earn their place, and without what can go."""
+def _grown(task: _Task, start: Solution) -> _Grown:
+    """With a group, and with strips added as long as they earn their place."""
     grown = _Grown(task, start, [Step(_told(start.bodies), 0.0)])
     grown.keeps(_with_best_group(task, start), "a group of strips")
     while (count := len(grown.bodies.owner)) < task.strips:
         if not grown.keeps(_with_best_strip(task, grown.best), f"strip {count + 1} added"):
             break
+    return grown
+
+
+def _tidy(task: _Task, grown: _Grown) -> None:
+    """Without what can go."""
+    count = len(grown.bodies.owner)
     for strip in reversed(range(count - grown.bodies.grouped)):
         if len(grown.bodies.owner) > 3:
             grown.keeps(grown.moved(grown.bodies.without_strip(strip)), "strip dropped")
-    if count > len(start.bodies.owner):
+    if len(grown.steps) > 1:
         grown.keeps(_with_best_group(task, grown.best), "a group of strips")
     if grown.bodies.grouped:
         grown.keeps(grown.moved(grown.bodies.without_group()), "the group dissolved", -WORTH)
     if len(grown.bodies.owner) == 3:
         grown.keeps(grown.moved(grown.bodies.squared()), "strips put at right angles")
-    return grown.best, grown.steps
 
 
 @dataclass(eq=False)
@@ -181,7 +187,7 @@ def _with_best_group(task: _Task, best: Solution) -> Solution | None:
     """With the most promising of all groups, where there is none yet and anything is left to gain."""
     if best.bodies.grouped or (task.found(best) and best.noise.outliers < _FEW):
         return None
-    tried = [task.solved(bodies, task.coarse, 6) for bodies in groupings(best.bodies)]
+    tried = [task.solved(bodies, task.coarse, 4) for bodies in groupings(best.bodies)]
     tried.sort(key=lambda solution: _criterion(solution, task.coarse))
     refined = [task.solved(solution.bodies, task.middle, 25, solution.noise) for solution in tried[:_GROUPS]]
     return min(refined, key=lambda solution: _criterion(solution, task.middle))

@@ -153,8 +153,8 @@ def solved(
         else:
             break
         bodies, miss, damping = trial, ahead, max(damping, 1e-9)
-        still = still + 1 if gain < 1e-4 * count**0.5 else 0
-        if still >= 3:
+        still = still + 1 if gain < 1e-3 * count**0.5 else 0
+        if still >= 2:
             break
     noise = noise.updated(miss[:count], floor, evidence.outliers)
     return Solution(bodies, noise, evidence.cost(noise, miss))
