@@ -94,7 +94,9 @@ def _save(scene: Scene, output: Path) -> None:
 
 def _text(result: dict[str, Any]) -> str:
     """The report for people: what was done, then how well it fits."""
-    lines = [f"  {step['what']}" + (f", criterion {step['gain']:,.0f} lower" if step["gain"] > 0 else "") for step in result["steps"]]
+    lines = [
+        f"  {step['what']}" + (f", criterion {step['gain']:,.0f} lower" if step["gain"] > 0 else "") for step in result["steps"]
+    ]
     counts = f"{result['parts']} {'part' if result['parts'] == 1 else 'parts'}, {result['strips']} strips"
     away = "{median:.3%} of the diagonal away (median), {most:.3%} (90 %), {largest:.3%} (largest)".format(**result)
     outliers = f", outliers {result['outliers']:.1%}" if result["outliers"] > 0.005 else ""
