@@ -17,9 +17,7 @@ import numpy as np
 from hqmodel.field import (
     Region,
     Terms,
-    log_ratio,
     mirror_axes,
-    near_linear_single,
     region,
 )
 from hqmodel.model import Scene
@@ -27,12 +25,13 @@ from hqmodel.model import Scene
 from .balance import Balance
 from .creases import sharp_vertices
 from .cull import Blocks, blocks_of, relevant, tiles
-from .extract import AT_NODE, Numbers, Samples, extract
+from .extract import AT_NODE, extract
 from .finish import finished
-from .grid import BLOCK, Grid, make_grid
+from .grid import BLOCK, make_grid
 from .measure import furthest
 from .mesh import Mesh, MeshError, rows
 from .refine import place_vertices
+from .sampling import Sampling
 from .shade import clothed
 from .tolerance import COARSE, MOST, fineness, finer
 from .weld import Piece, Weld
@@ -41,8 +40,6 @@ Result = TypeVar("Result")
 Progress = Callable[[float, str], None]
 USUAL_RESOLUTION, MAX_RESOLUTION = 256, 2048
 FEWEST_FACES = 4
-# Samples this near to the level are rounding: fields that stay at their level throughout (an octahedron's slices) have no body.
-_ROUNDING = 1e-13
 # Neighbouring blocks that make one job: enough for NumPy's calls to be worth it, few enough to stay small in memory.
 RUN = 2400
 # Seconds between two looks at whether a piece is done, or no longer wanted.
@@ -178,17 +175,13 @@ def _piece(scene: Scene, terms: Terms, balance: Balance, stopped: threading.Even
         if stopped.is_set():
             raise CancelledError  # nobody looks at the result any more
 
-    def samples(nodes: Numbers) -> Samples:
-        still()
-        return _samples(local, grid, nodes)
-
     grid, local = balance.grid, relevant(terms, balance.grid, blocks, BLOCK)
-    patch = extract(blocks, samples)
+    patch = extract(blocks, Sampling(local, grid, still))
     still()
     if patch is None or not len(patch.faces):
         return None
     node, axis, faces = patch.node, patch.axis, patch.faces
-    vertices, slopes = place_vertices(local, grid, node, axis, patch.ends)
+    vertices, slopes = place_vertices(local, grid, node, axis, patch.ends, patch.aside)
     still()
     normals, colors, off = clothed(scene, local, grid, vertices, slopes, faces, within=axis == AT_NODE)
     pulls = balance.pulls(faces, off, normals)
@@ -207,12 +200,3 @@ def _piece(scene: Scene, terms: Terms, balance: Balance, stopped: threading.Even
         faces=faces,
         worst=furthest(balance.sunk(off, faces, step)),
     )
-
-
-def _samples(terms: Terms, grid: Grid, nodes: Numbers) -> Samples:
-    """The near-linear field at nodes (n, 3); -inf beyond a cut."""
-    values = near_linear_single(terms, log_ratio(terms, grid.points(nodes)), _ROUNDING)
-    for i, outside in enumerate(grid.outside):
-        if outside.any():
-            values[outside[np.minimum(nodes[:, i], len(outside) - 1)]] = -np.inf
-    return values

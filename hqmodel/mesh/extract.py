@@ -6,8 +6,8 @@ lie on, never by rounding coordinates.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,12 +15,11 @@ from numpy.typing import NDArray
 from .cubes import AMBIGUOUS, CORNERS, EDGES, FACES, triangles
 from .cull import Blocks
 from .grid import BLOCK, Grid
-from .mesh import Triangles, slices
+from .mesh import Array, Triangles, slices
+from .sampling import Indices, Numbers, Samples, Sampling
+from .sheets import moves
 
 AT_NODE = 3
-Samples = NDArray[np.float32]
-Numbers = NDArray[np.int64]
-Indices = NDArray[np.intp]
 
 
 def _lattice(count: int) -> Numbers:
@@ -45,14 +44,16 @@ class Patch:
     """Triangles and the edges that their vertices lie on, each once.
 
     `node` (V, 3) and `axis` (V,): the first node of the grid's edge and the axis that it runs along; `AT_NODE` for the node
-    itself, where an edge without length leaves a cut. `ends` (V, 2): the samples at both nodes, positive inside. `pinched` (V,)
-    tells those on faces of cells that are inside at two opposite corners only: where edges with four triangles may arise.
-    `shared` (V,) tells those that other blocks may have too.
+    itself, where an edge without length leaves a cut. `ends` (V, 2): the samples at both nodes, positive inside. `aside`
+    (V, 2, 3): how far both have moved, in cells; None where none has. `pinched` (V,) tells those on faces of cells that are
+    inside at two opposite corners only: where edges with four triangles may arise. `shared` (V,) tells those that other blocks
+    may have too.
     """
 
     node: Numbers
     axis: Numbers
     ends: Samples
+    aside: Array | None
     pinched: NDArray[np.bool_]
     shared: NDArray[np.bool_]
     faces: Triangles
@@ -64,13 +65,11 @@ class Patch:
         return ((x * ny + y) * nz + z) * (AT_NODE + 1) + self.axis
 
 
-def extract(blocks: Blocks, sample: Callable[[Numbers], Samples]) -> Patch | None:
-    """The level set 0 of a field, positive inside, in blocks (n, 3), given by their first nodes.
-
-    `sample` gives the field at nodes (m, 3), never 0, and -inf beyond a cut. None where there is no surface.
-    """
+def extract(blocks: Blocks, sampling: Sampling) -> Patch | None:
+    """The surface in blocks (n, 3), given by their first nodes; None where there is none."""
     nodes = _Nodes(blocks)
-    samples = nodes.sampled(sample)
+    samples = nodes.sampled(sampling)
+    nodes.into_sheets(samples, sampling)
     inside = (samples > 0).view(np.uint8).take(nodes.of_block)
     case = _cases(inside).ravel()
     cells = np.flatnonzero((case > 0) & (case < 255))
@@ -79,7 +78,7 @@ def extract(blocks: Blocks, sample: Callable[[Numbers], Samples]) -> Patch | Non
     case = case.take(cells)
     block = cells // len(_OWN)
     first = block * len(_ALL) + (_OWN @ _STRIDES).take(cells - block * len(_OWN))
-    joined, unclear = _joined(case, first, nodes, samples)
+    joined, unclear = _joined(case, first, nodes, samples, sampling)
     near, far, axis, number = _vertices(nodes, inside)
     rim = nodes.rim()
     shared = np.logical_or.reduce([rim[i].take(near) & (axis != i) for i in range(3)])
@@ -90,7 +89,8 @@ def extract(blocks: Blocks, sample: Callable[[Numbers], Samples]) -> Patch | Non
     leaves = np.isneginf(ends[:, 0]) | np.isneginf(ends[:, 1])
     shared[leaves] = rim[:, near[leaves]].any(axis=0) | rim[:, far[leaves]].any(axis=0)
     pinched = (marked.take(near) & marked.take(far)) | leaves
-    return _without_length(Patch(nodes.named(near), axis, ends, pinched, shared, faces), leaves)
+    aside = nodes.aside(near, far)
+    return _without_length(Patch(nodes.named(near), axis, ends, aside, pinched, shared, faces), leaves)
 
 
 class _Nodes:
@@ -108,15 +108,39 @@ class _Nodes:
         self.of_block = np.take(self._beside.astype(np.int32), _ALL // BLOCK @ np.array([4, 2, 1]), axis=1)
         self.of_block *= len(_OWN)
         self.of_block += own.astype(np.int32)
+        self._shift: Array | None = None  # of each place, (places, 3), in cells
+        self._found = np.zeros(len(self), dtype=bool)
 
     def __len__(self) -> int:
         return self._first.shape[1] * len(_OWN)
 
-    def named(self, places: Indices) -> Numbers:
+    def named(self, places: NDArray[np.integer[Any]]) -> Numbers:
         """The nodes (n, 3) at places (n,)."""
         slot = places // len(_OWN)
         own = places - slot * len(_OWN)
         return np.stack([first.take(slot) + step.take(own) for first, step in zip(self._first, _OWN.T, strict=True)]).T
+
+    def into_sheets(self, samples: Samples, sampling: Sampling) -> None:
+        """Move nodes into sheets that the samples (places,) don't see, and have them see these, in place."""
+        found = moves(self.of_block, samples, self.named, sampling)
+        if len(found.places):
+            self._shift = np.zeros((len(self), 3))
+            self._shift[found.places, found.axis] = found.shift
+            self._found[found.places] = (samples[found.places] > 0) != (found.samples > 0)
+            samples[found.places] = found.samples
+
+    def aside(self, near: Indices, far: NDArray[np.int32]) -> Array | None:
+        """How far the nodes at places (n,) each have moved, (n, 2, 3); None where none has."""
+        return None if self._shift is None else np.stack([self._shift[near], self._shift[far]], axis=1)
+
+    def middle(self, one: Indices, other: Indices) -> Array:
+        """The numbers (n, 3) of the middles between nodes at places (n,) each."""
+        middle = (self.named(one) + self.named(other)) / 2
+        return middle if self._shift is None else middle + (self._shift[one] + self._shift[other]) / 2
+
+    def in_sheets(self, one: Indices, other: Indices) -> NDArray[np.intp]:
+        """How many of the nodes at places (n,) each have been moved to the other side of the level, (n,)."""
+        return self._found[one].astype(np.intp) + self._found[other]
 
     def rim(self) -> NDArray[np.bool_]:
         """Whether nodes are on a side beyond which there is no block, by the axis across the side and by place, (3, places)."""
@@ -131,7 +155,7 @@ class _Nodes:
                 result[axis, self.of_block[np.ix_(~there, steps == at)]] = True
         return result
 
-    def sampled(self, sample: Callable[[Numbers], Samples]) -> Samples:
+    def sampled(self, sampling: Sampling) -> Samples:
         """The field at all nodes of the blocks, by their places."""
         used = np.zeros(len(self), dtype=bool)
         used[self.of_block] = True
@@ -139,7 +163,7 @@ class _Nodes:
         result = np.zeros(len(self), dtype=np.float32)
         for start in range(0, len(places), _CHUNK):
             here = places[start : start + _CHUNK]
-            result[here] = sample(self.named(here))
+            result[here] = sampling.at(self.named(here))
         return result
 
 
@@ -184,22 +208,34 @@ def _without_length(patch: Patch, leaves: NDArray[np.bool_]) -> Patch:
     faces = number.reshape(-1).astype(np.int32)[patch.faces]
     a, b, c = faces.T
     with_length = (a != b) & (b != c) & (c != a)
-    return Patch(node[kept], axis[kept], patch.ends[kept], patch.pinched[kept], patch.shared[kept], faces[with_length])
+    aside = patch.aside
+    if aside is not None:
+        aside = np.where(np.isneginf(patch.ends[:, :1, None]), aside[:, ::-1], aside)[kept]
+    return Patch(node[kept], axis[kept], patch.ends[kept], aside, patch.pinched[kept], patch.shared[kept], faces[with_length])
 
 
-def _joined(case: NDArray[np.uint8], first: Indices, nodes: _Nodes, samples: Samples) -> tuple[NDArray[np.uint8], Indices]:
-    """For each cell the ambiguous faces, as bits, whose inside corners are joined: where the face's saddle is inside. Besides,
-    the places of the corners of all ambiguous faces."""
-    result = np.zeros(len(case), dtype=np.uint8)
+def _joined(
+    case: NDArray[np.uint8], first: Indices, nodes: _Nodes, samples: Samples, sampling: Sampling
+) -> tuple[NDArray[np.uint8], Indices]:
+    """For each cell the ambiguous faces, as bits, whose inside corners are joined. Besides, the places of all such corners.
+
+    They are where the middle between them is inside, or that between the others, if these have been moved into a groove. A
+    sheet's last corner is joined to the body beyond, and a groove's to the space there.
+    """
     unclear = np.flatnonzero(AMBIGUOUS.take(case))
-    seen = []
-    for face, ring in enumerate(FACES):
-        rows = unclear[AMBIGUOUS[case[unclear]] >> face & 1 > 0]
-        seen.append(nodes.of_block.ravel()[first[rows] + (CORNERS[list(ring)] @ _STRIDES)[:, None]])
-        a, b, c, d = samples[seen[-1]]
-        joined = np.where(a > 0, a * c > b * d, b * d > a * c)
-        result[rows] |= np.where(joined, 1 << face, 0).astype(np.uint8)
-    return result, np.concatenate(seen, axis=1).ravel()
+    which = [unclear[AMBIGUOUS[case[unclear]] >> face & 1 > 0] for face in range(len(FACES))]
+    corners = [first[rows] + (CORNERS[list(ring)] @ _STRIDES)[:, None] for ring, rows in zip(FACES, which, strict=True)]
+    seen = nodes.of_block.ravel()[np.concatenate(corners, axis=1)]
+    a, b, c, d = seen
+    a, c, b, d = np.where(samples.take(a) > 0, [a, c, b, d], [b, d, a, c])
+    inside, outside = nodes.in_sheets(a, c), nodes.in_sheets(b, d)
+    groove = outside > inside
+    joined = sampling.at(nodes.middle(np.where(groove, b, a), np.where(groove, d, c))) > 0
+    joined = np.where(inside == 1, (outside != 1) | joined, joined & (outside != 1))
+    bits = np.repeat(1 << np.arange(len(FACES)), [len(rows) for rows in which])
+    result = np.zeros(len(case), dtype=np.uint8)
+    np.bitwise_or.at(result, np.concatenate(which)[joined], bits[joined].astype(np.uint8))
+    return result, seen.ravel()
 
 
 def _faces(nodes: _Nodes, number: NDArray[np.int32], first: Indices, code: Indices) -> Triangles:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import ceil
 from typing import Any
 
@@ -36,6 +37,11 @@ class Grid:
         x, y, z = ((len(nodes) - 1) // BLOCK for nodes in self.nodes)
         return x, y, z
 
+    @cached_property
+    def steps(self) -> Array:
+        """From node to node along each axis, (3,)."""
+        return np.array([np.max(np.diff(nodes)) for nodes in self.nodes])
+
     @property
     def cuts(self) -> list[tuple[int, float, float]]:
         """The planes that cut the body: axis, coordinate, and the side that is cut away."""
@@ -51,8 +57,10 @@ class Grid:
         """Corners (n, 3) of cubes of `size` cells, cut off at the grid's end, whose first nodes are `blocks` (n, 3)."""
         return self.points(blocks), self.points(blocks + size)
 
-    def points(self, node: NDArray[np.integer[Any]]) -> Array:
-        """World positions (n, 3) of nodes numbered (n, 3), those past the end at it."""
+    def points(self, node: NDArray[Any]) -> Array:
+        """World positions (n, 3) of nodes numbered (n, 3), those past the end at it; numbers with fractions lie between nodes."""
+        if np.issubdtype(node.dtype, np.floating):
+            return np.stack([np.interp(node[:, i], np.arange(len(nodes)), nodes) for i, nodes in enumerate(self.nodes)]).T
         return np.stack([nodes.take(node[:, i], mode="clip") for i, nodes in enumerate(self.nodes)]).T
 
     def touches_outside(self, blocks: NDArray[np.integer[Any]], size: int) -> NDArray[np.bool_]:

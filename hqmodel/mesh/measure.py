@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from hqmodel.field import Terms, log_ratio, near_linear_single
 
-from .mesh import Array, Mesh, Triangles, crosses, dots, lengths
+from .mesh import Array, Mesh, Triangles, crosses, dots, lengths, unit
 from .refine import to_surface
 
 # Faces that are measured between two looks at whether it is still wanted.
@@ -19,6 +19,8 @@ _AT_ONCE = 1 << 18
 
 # The share of a cell that distances of faces count in whole multiples of: sums of them don't depend on the order.
 QUANTUM = 2.0**-20
+# Newton steps whose last is longer than this share of a stride have not arrived.
+_LOST = 1e-2
 
 
 def depths(terms: Terms, vertices: Array, faces: Triangles, slopes: Array, cell: float) -> NDArray[np.float32]:
@@ -40,11 +42,30 @@ def furthest(off: NDArray[np.float32]) -> NDArray[np.intp]:
 
 
 def largest_distance(terms: Terms, vertices: Array, faces: Triangles, stride: float) -> float:
-    """The largest distance of a face's middle from the surface, measured along the gradient by Newton steps."""
+    """The largest distance of a face's middle from the true surface: along the gradient by Newton steps of at most `stride`, or,
+    where these lead nowhere, as at a rim between steep sides, along the faces' normals."""
     if not len(faces):
         return 0.0
-    middles = vertices[faces].mean(axis=1)
-    return float(np.max(lengths(to_surface(terms, middles, stride, rounds=6)[0] - middles)))
+    corners = vertices[faces]
+    middles = corners.mean(axis=1)
+    arrived, last = to_surface(terms, middles, stride, rounds=6)
+    away = lengths(arrived - middles)
+    lost = np.flatnonzero(last > _LOST * stride)
+    across = unit(crosses(corners[lost, 1] - corners[lost, 0], corners[lost, 2] - corners[lost, 0]))
+    away[lost] = np.minimum(away[lost], _along(terms, middles[lost], across, stride))
+    return float(np.max(away))
+
+
+def _along(terms: Terms, points: Array, normals: Array, stride: float) -> Array:
+    """How far the surface is from points (n, 3) along their normals (n, 3), one way or the other, to a hundredth of a stride;
+    inf if further than four strides."""
+    steps = stride * np.arange(-4, 4.001, 0.01)
+    result = np.full(len(points), np.inf)
+    for i, (point, normal) in enumerate(zip(points, normals, strict=True)):
+        inside = log_ratio(terms, point + np.multiply.outer(steps, normal)) > 0
+        there = np.abs(steps[inside != (log_ratio(terms, point[None]) > 0)])
+        result[i] = np.min(there, initial=np.inf)
+    return result
 
 
 def report(mesh: Mesh, still: Callable[[], None] = lambda: None) -> dict[str, Any]:

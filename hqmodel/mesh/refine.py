@@ -9,13 +9,16 @@ from numpy.typing import NDArray
 
 from hqmodel.field import Terms, log_ratio, near_linear, near_linear_gradient
 
-from .extract import AT_NODE, Samples
+from .extract import AT_NODE
 from .grid import Grid
-from .mesh import Array, lengths, rows
+from .mesh import Array, dots, lengths, rows, unit
+from .sampling import Samples
 
 # A vertex nearer to a node than this share of the edge is moved off it and back onto the surface sideways, so that the
 # vertices around a node that lies almost on the surface stay apart.
 _CROWDED = 0.05
+# The same of an edge that a sheet has drawn an end of into itself.
+_SPREAD = 0.25
 # Where that fails, at a kink or a tip, it stays on its edge, this share of it away from the node.
 _APART = 1e-3
 # A Newton step shorter than this share of its edge ends where another would be shorter than a hundred-thousandth.
@@ -25,27 +28,39 @@ _PRECISE = 1e-8
 
 
 def place_vertices(
-    terms: Terms, grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64], ends: Samples
+    terms: Terms, grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64], ends: Samples, aside: Array | None
 ) -> tuple[Array, Array]:
     """World positions (V, 3), on the surface, of the vertices on the grid's edges from `node` (V, 3) along `axis` (V,), and the
-    near-linear field's gradients there, (V, 3). `ends` are a patch's.
+    near-linear field's gradients there, (V, 3). `ends` and `aside` are a patch's.
 
     Exactly in the planes of the grid that their edges lie in at a mirror plane or a cut.
     """
-    caps = np.flatnonzero(axis == AT_NODE)
-    if caps.size:
-        points, slopes = grid.points(node), np.empty((len(node), 3))
-        free = np.flatnonzero(axis < AT_NODE)
-        slopes[caps] = near_linear_gradient(terms, points[caps])[1]
-        points[free], slopes[free] = place_vertices(terms, grid, node[free], axis[free], ends[free])
-        return points, slopes
-    edges = _Edges.of(grid, node, axis, ends)
+    caps, bent = axis == AT_NODE, np.zeros(len(axis), dtype=bool) if aside is None else aside.any(axis=(1, 2))
+    straight = np.flatnonzero(~(caps | bent))
+    if len(straight) == len(axis):
+        return _placed(terms, grid, _Edges.of(grid, node, axis, ends), node, _CROWDED)
+    points, slopes = np.empty((len(axis), 3), order="F"), np.empty((len(axis), 3), order="F")
+    points[caps] = grid.points(node[caps] if aside is None else node[caps] + aside[caps, 0])
+    slopes[caps] = near_linear_gradient(terms, points[caps])[1]
+    if straight.size:
+        edges = _Edges.of(grid, rows(node, straight), axis[straight], ends[straight])
+        points[straight], slopes[straight] = _placed(terms, grid, edges, rows(node, straight), _CROWDED)
+    bent &= ~caps
+    if aside is not None and bent.any():
+        askew = _Askew.of(grid, node[bent], axis[bent], ends[bent], aside[bent])
+        points[bent], slopes[bent] = _placed(terms, grid, askew, node[bent], _SPREAD)
+    return points, slopes
+
+
+def _placed(terms: Terms, grid: Grid, edges: _Edges | _Askew, node: NDArray[np.int64], apart: float) -> tuple[Array, Array]:
+    """As `place_vertices`; none stays nearer to a node than the share `apart` of its edge."""
     points, slopes, share = _on_edges(terms, edges)
-    near = np.flatnonzero((share < _CROWDED) | (share > 1 - _CROWDED))
+    near = np.flatnonzero((share < apart) | (share > 1 - apart))
     if near.size:
         crowded, share = edges.some(near), share.take(near)
-        aside, beside = (crowded.at(np.clip(share, d, 1 - d)) for d in (_CROWDED, _APART))
-        points[near] = _projected(terms, aside, beside, _held(grid, rows(node, near), axis.take(near)), grid.cell)
+        held = _held(grid, rows(node, near), crowded.axis)
+        aside = crowded.aside(apart, share, rows(points, near), np.where(held, 0.0, rows(slopes, near)))
+        points[near] = _projected(terms, aside, crowded.at(np.clip(share, _APART, 1 - _APART)), held, grid.cell)
         slopes[near] = near_linear_gradient(terms, points[near])[1]
     return points, slopes
 
@@ -76,8 +91,48 @@ class _Edges(NamedTuple):
         points[np.arange(len(share)), self.axis] += self.long * share
         return points
 
+    def aside(self, apart: float, share: Array, points: Array, slopes: Array) -> Array:
+        """The points (n, 3) at those shares (n,) moved off the nearer node, along the edge."""
+        return self.at(np.clip(share, apart, 1 - apart))
 
-def _on_edges(terms: Terms, edges: _Edges) -> tuple[Array, Array, Array]:
+    def gain(self, slopes: Array) -> Array:
+        """How much a field with the gradients (n, 3) gains along each, (n,)."""
+        return slopes[np.arange(len(slopes)), self.axis] * self.long
+
+
+class _Askew(NamedTuple):
+    """Edges of the grid of which an end has moved: from `start` (n, 3) as far as `way` (n, 3); the rest is as for `_Edges`."""
+
+    start: Array
+    way: Array
+    axis: NDArray[np.int64]
+    ends: Samples
+
+    @classmethod
+    def of(cls, grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64], ends: Samples, aside: Array) -> _Askew:
+        start = grid.points(node + aside[:, 0])
+        return cls(start, grid.points(node + np.eye(3)[axis] + aside[:, 1]) - start, axis, ends)
+
+    def some(self, which: NDArray[np.intp]) -> _Askew:
+        """Some of them."""
+        return _Askew(self.start[which], self.way[which], self.axis[which], self.ends[which])
+
+    def at(self, share: Array) -> Array:
+        """The points (n, 3) at those shares (n,) of the edges."""
+        return self.start + share[:, None] * self.way
+
+    def aside(self, apart: float, share: Array, points: Array, slopes: Array) -> Array:
+        """The points (n, 3) at those shares (n,) moved off the nearer node, along the surface, as across a sheet is no room."""
+        normal = unit(slopes)
+        way = self.way - dots(self.way, normal)[:, None] * normal
+        return points + np.where(share < 0.5, apart, -apart)[:, None] * way
+
+    def gain(self, slopes: Array) -> Array:
+        """How much a field with the gradients (n, 3) gains along each, (n,)."""
+        return dots(slopes, self.way)
+
+
+def _on_edges(terms: Terms, edges: _Edges | _Askew) -> tuple[Array, Array, Array]:
     """Where edges meet the surface: the points (n, 3), the gradients there (n, 3), and the shares of the edges (n,).
 
     One Newton step from where the samples at the ends put it, as these are nearly linear; where that is not enough, a root.
@@ -85,7 +140,7 @@ def _on_edges(terms: Terms, edges: _Edges) -> tuple[Array, Array, Array]:
     share = edges.ends[:, 0] / (edges.ends[:, 0] - edges.ends[:, 1]).astype(float)
     values, slopes = near_linear_gradient(terms, edges.at(share))
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        step = -values / (slopes[np.arange(len(share)), edges.axis] * edges.long)
+        step = -values / edges.gain(slopes)
         near = (np.abs(step) < _NEARLY) & (share + step > 0) & (share + step < 1)
     share += np.where(near, step, 0.0)
     rest = np.flatnonzero(~near)
@@ -105,7 +160,7 @@ def _held(grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64]) -> NDArr
     return held
 
 
-def _roots(terms: Terms, edges: _Edges) -> Array:
+def _roots(terms: Terms, edges: _Edges | _Askew) -> Array:
     """Shares (n,) of edges at which the field is 0, by Chandrupatla's method (1997, Adv. Eng. Software 28).
 
     The samples at the ends are of opposite sign. The bracket of each root shrinks below `_PRECISE` of its edge, by inverse

@@ -1,4 +1,7 @@
-"""Parts and grooves so thin that the grid may run through them: found by the strips that bound each shape, and measured."""
+"""Rods, and channels, so thin that they run between the grid's lines: found by the strips that bound each shape, and measured.
+
+What is thin one way only, a sheet, the mesher finds on those lines (see `sheets`).
+"""
 
 from __future__ import annotations
 
@@ -18,14 +21,15 @@ from .grid import make_grid
 from .mesh import Array
 
 # Places looked at in each shape's middle planes, and at how many, and what share of them, it has to be missed.
-_PLACES, _FEWEST, _SHARE = 400, 10, 0.05
+_PLACES, _FEWEST, _SHARE = 400, 10, 0.15
 # Sheets thicker than so many times what the grid is sure to see are not looked at.
-_THICK = 1.25
+_THICK = 2.0
 _HALVINGS = 20
 # Three planes whose normals span less than this don't meet in a point worth speaking of.
 _FLAT = 1e-6
-# How many times finer than just enough the grid is to be.
-_FINER = 1.2
+# So many cells are enough across something thin, or, where it is seen by lines through its middle plane, along that. No less
+# than so many times finer is any better.
+_CELLS, _CELLS_WIDE, _FEWEST_FINER = 2.5, 4.0, 1.2
 
 
 class Thin(NamedTuple):
@@ -36,10 +40,10 @@ class Thin(NamedTuple):
 
 
 def thin_parts(scene: Scene, resolution: int = USUAL_RESOLUTION) -> list[Thin]:
-    """The shapes of which a good part is too thin, or carves too thin a groove, for a mesh of that resolution.
+    """The shapes of which a good part is too thin, or carves too thin a channel, for a mesh of that resolution.
 
-    A sheet with the unit normal n is seen whole by a grid with steps s where it is no thinner than the largest of |n_i| s_i, as
-    then each of the grid's lines along that axis has a node in it.
+    What is thin along the unit normal n is seen whole by a grid with steps s where it is no thinner than the largest of
+    |n_i| s_i, as then each of the grid's lines along that axis has a node in it; of a rod, one way of the two is enough.
     """
     terms = Terms.of(scene)
     where = region(scene, terms)
@@ -56,8 +60,9 @@ def thin_parts(scene: Scene, resolution: int = USUAL_RESOLUTION) -> list[Thin]:
         thickness = look.thickness(strip)
         if thickness:
             shape = int(terms.strip_source[strip, 0])
-            needed[shape] = max(needed.get(shape, 0.0), _FINER * look.across[strip] / thickness)
-    return [Thin(shape, ceil(resolution * max(finer, _FINER))) for shape, finer in sorted(needed.items())]
+            finer = min(_CELLS * look.across[strip] / thickness, _CELLS_WIDE * look.narrowest(strip))
+            needed[shape] = max(needed.get(shape, _FEWEST_FINER), finer)
+    return [Thin(shape, ceil(resolution * finer)) for shape, finer in sorted(needed.items())]
 
 
 class _Look:
@@ -72,6 +77,12 @@ class _Look:
         self._normal = terms.normal / np.maximum(self.length, 1e-300)[:, None]
         steps = np.abs(self._normal) * [np.max(np.diff(axis)) for axis in nodes]
         self._axis, self.across = np.argmax(steps, axis=1), np.max(steps, axis=1)
+
+    def narrowest(self, strip: int) -> float:
+        """How much of a cell's width the shape of a strip has, inverted, where it is narrowest along the plane; 0 if endless."""
+        own = (self._terms.term_of_strip == self._terms.term_of_strip[strip]) & (self._reach > 0)
+        own[strip] = False
+        return float(np.max(self.across[own] * self.length[own] / (2 * self._reach[own]), initial=0.0))
 
     def thickness(self, strip: int) -> float:
         """How thick the body, or what is carved from it, is about a strip's middle plane where the grid misses it.
@@ -88,7 +99,7 @@ class _Look:
 
         places = places[within(0.0)]
         missed = ~within(_THICK / 2) & ~within(-_THICK / 2)
-        missed &= (log_ratio(self._terms, self._nodes_by(places, strip)) > 0) != side
+        missed &= (log_ratio(self._terms, self._on_lines(places, strip)) > 0) != side
         if np.count_nonzero(missed) < max(_FEWEST, _SHARE * len(places)):
             return 0.0
         places = places[missed]
@@ -102,12 +113,12 @@ class _Look:
             width += high
         return float(across * np.median(width))
 
-    def _nodes_by(self, places: Array, strip: int) -> Array:
-        """Of the grid line along the steepest axis that is nearest to each place (n, 3), the node nearest to the plane."""
+    def _on_lines(self, places: Array, strip: int) -> Array:
+        """Where the grid's lines along the steepest axis that are nearest to each place (n, 3) pass the plane."""
         normal, axis = self._normal[strip], int(self._axis[strip])
         found = np.stack([_nearest(nodes, x) for nodes, x in zip(self._nodes, places.T, strict=True)], axis=1)
-        aside = (found - places) @ normal - (found - places)[:, axis] * normal[axis]
-        found[:, axis] = _nearest(self._nodes[axis], places[:, axis] - aside / normal[axis])
+        found[:, axis] = places[:, axis]
+        found[:, axis] -= (found - places) @ normal / normal[axis]
         return found
 
     def _places(self, strip: int) -> Array:

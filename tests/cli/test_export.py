@@ -189,7 +189,7 @@ def test_a_tolerance_that_is_not_met_is_told(hqmodel: Command) -> None:
 
 def test_a_part_that_the_grid_misses_is_named(hqmodel: Command) -> None:
     sheet = {"normal": [0.3, 0.5, 1], "half_width": 0.01, "gamma": 8}
-    strips = [sheet, {"normal": [1, 0, -0.3]}, {"normal": [0, 1, -0.5]}]
+    strips = [sheet, {"normal": [1, 0, -0.3], "half_width": 0.02}, {"normal": [0, 1, -0.5]}]
     Path("fin.json").write_text(json.dumps({**BALL, "shapes": [*BALL["shapes"], {"name": "fin", "strips": strips}]}))
     ended = hqmodel("export", "fin.json", "-o", "a.stl", "--resolution", 24, "--json", "--set", "hardness=20")
     assert json.loads(ended.out)["thin_parts"] == []  # within the ball

@@ -7,7 +7,7 @@ import pytest
 from numpy.random import default_rng
 from numpy.typing import NDArray
 
-from hqmodel.field import Terms, first_hits, log_ratio, near_linear_gradient, region
+from hqmodel.field import Terms, first_hits, log_gradient, log_ratio, near_linear_gradient, region
 from hqmodel.mesh import Mesh, MeshError, polygonize, report
 from hqmodel.model import Scene, Shape, Strip, Transform
 
@@ -153,7 +153,8 @@ def test_runs_of_blocks_leave_no_trace(name: str, monkeypatch: pytest.MonkeyPatc
 
 
 def test_nothing_is_missed_that_a_dense_look_finds(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Every change of sign between neighbouring nodes of the grid has its vertex, before creases are put back."""
+    """Every change of sign between neighbouring nodes of the grid has its vertex, before creases are put back; and little else:
+    what is thinner than a cell."""
     monkeypatch.setattr("hqmodel.mesh.finish.creased", lambda *_: None)
     scene = case("composite_2").scene
     mesh = polygonize(scene, 48)
@@ -164,7 +165,7 @@ def test_nothing_is_missed_that_a_dense_look_finds(monkeypatch: pytest.MonkeyPat
     inside = log_ratio(Terms.of(scene), np.stack(np.meshgrid(*nodes, indexing="ij"), axis=-1)) > 0
     crossings = sum(int(np.count_nonzero(np.diff(inside, axis=axis))) for axis in range(3))
     assert len(mesh.vertices) >= crossings
-    assert len(mesh.vertices) - crossings < 0.002 * crossings
+    assert len(mesh.vertices) - crossings < 0.005 * crossings
 
 
 def test_caps_are_flat_and_closed() -> None:
@@ -218,18 +219,17 @@ def test_several_bodies_and_holes_are_kept() -> None:
 
 
 def test_the_stated_error_is_what_rays_find() -> None:
-    """Rays through the middles of faces, along their normals, meet the surface no farther than the stated error."""
+    """Rays through the middles of faces, straight at the surface, meet it no farther than the stated error."""
     for name in ("dodecahedron", "convex_1", "two_holes"):
         scene = case(name).scene
         mesh = polygonize(scene, 64)
-        corners = mesh.vertices[mesh.faces]
-        across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        normals = across / np.linalg.norm(across, axis=1, keepdims=True)
         cell = float(np.max(np.ptp(mesh.vertices, axis=0))) / 64
         terms = Terms.of(scene)
-        middles = corners.mean(axis=1)
-        free = log_ratio(terms, middles + cell * normals) < 0
-        hits = first_hits(terms, region(scene, terms), (middles + cell * normals)[free], -normals[free])
+        middles = mesh.vertices[mesh.faces].mean(axis=1)
+        slopes = log_gradient(terms, middles)[1]
+        outwards = -slopes / np.linalg.norm(slopes, axis=1, keepdims=True)
+        free = log_ratio(terms, middles + cell * outwards) < 0
+        hits = first_hits(terms, region(scene, terms), (middles + cell * outwards)[free], -outwards[free])
         found = np.abs(hits - cell)
         assert mesh.surface_error is not None
         assert 0.3 * np.nanmax(found) < mesh.surface_error < 1.5 * np.nanmax(found)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.random import default_rng
 from numpy.typing import NDArray
 
-from hqmodel.field import Region, Terms, log_ratio, near_linear, region, segment_bounds
+from hqmodel.field import Region, Terms, log_ratio, region, segment_bounds
 from hqmodel.mesh import MeshError, polygonize, report, thin_parts
 from hqmodel.model import Scene
 
@@ -20,7 +20,7 @@ from ..gpu.scenes import random_scene
 ROUND, SHARP = (1.0, 1.3, 2.0, 4.0, 12.0, 60.0), (0.5, 0.8, 1.0, 2.0, 12.0)
 # The points of the R2 sequence (M. Roberts 2018) fill the unit square evenly, in no rows: powers of the plastic number.
 _PLASTIC = 1.32471795724474602596
-_FINEST = 2**-11
+_FINEST, _HALVINGS = 2**-11, 16
 _FEW = 2000
 Array = NDArray[np.float64]
 
@@ -49,9 +49,13 @@ def _lengths(terms: Terms, where: Region, axis: int, lines: int) -> Array:
         np.add.at(inside, every[least > 0], (high - low)[least > 0])
         unclear = (least <= 0) & (most > 0)
         every, low, high = every[unclear], low[unclear], high[unclear]
-    a, b = (near_linear(terms, log_ratio(terms, at(end))) for end in (low, high))
-    share = np.where((a > 0) == (b > 0), a > 0, np.maximum(a, b) / np.maximum(np.abs(a - b), 1e-300))
-    np.add.at(inside, every, (high - low) * share)
+    first = log_ratio(terms, at(low)) > 0
+    start, end = low.copy(), high.copy()
+    for _ in range(_HALVINGS):  # of what is left each part is taken to hold one root, or none
+        middle = (low + high) / 2
+        before = (log_ratio(terms, at(middle)) > 0) == first
+        low, high = np.where(before, middle, low), np.where(before, high, middle)
+    np.add.at(inside, every, np.where(first, high - start, end - high))
     return inside
 
 
