@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from time import perf_counter, process_time
@@ -18,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hqmodel.field import Region, Terms, first_hits, log_gradient, log_ratio, region
+from hqmodel.field.rays import box_interval
 from hqmodel.gpu import assembly, offscreen
 from hqmodel.gpu.memory import SceneMemory
 from hqmodel.gpu.preview import shot_of
@@ -65,11 +67,14 @@ def scattered(count: int) -> Scene:
     return Scene(shapes=tuple(made))
 
 
-def view_of(ctx: moderngl.Context, scene: Scene, size: tuple[int, int]) -> View:
-    """The scene framed from the standard view."""
+def view_of(ctx: moderngl.Context, scene: Scene, size: tuple[int, int], in_cube: bool = False) -> View:
+    """The scene framed from the standard view; `in_cube` as a program has it that knows no closer bounds than a cube about it."""
     terms = Terms.of(scene)
     where = region(scene, terms)
     camera = Camera().framing(where.low, where.high, size[0] / size[1])
+    if in_cube:
+        middle, half = (where.low + where.high) / 2, float(np.max(where.size)) / 2
+        where = replace(where, low=middle - half, high=middle + half)
     memory = SceneMemory(ctx)
     memory.write(scene, terms, where)
     uniforms = {**shot_of(camera, size, "normals", None, where, memory, 0.0).uniforms, "picture_size": size, "jitter": (0.5, 0.5)}
@@ -162,28 +167,22 @@ class Judge:
         self._pixels = rng.integers(0, view.size, size=(count, 2))
         origins, directions = view.camera.rays(self._pixels + 0.5, view.size)
         self._distance = first_hits(view.terms, view.where, origins, directions)
-        self._scale, extent = view.memory.frame.scale, float(np.max(view.where.size))
+        extent = float(np.max(view.where.size))
         self._apart = _OFF * extent
         way = np.nan_to_num(self._distance)[:, None] + _GRAZING * extent * np.linspace(0.05, 1, 12)
         self._counts = np.isfinite(self._distance)
         self._counts &= np.all(log_ratio(view.terms, origins[:, None] + way[..., None] * directions[:, None]) > 0, axis=1)
-        self._enter = enter_of(view, origins, directions)
+        self._rays = origins, directions
 
-    def missed(self, states: Array) -> tuple[int, int]:
-        """Rays that pass by the body or end at another surface, and how many were judged that meet it."""
+    def missed(self, states: Array, view: View) -> tuple[int, int]:
+        """Rays that pass by the body or end at another surface by a view's `states`, and how many were judged that meet it."""
         width_first = states[states.shape[0] - 1 - self._pixels[:, 1], self._pixels[:, 0]]
         t, _, far, phase = width_first.T
         hit = (phase > 0) & (phase < 4)
-        distance = self._enter + np.where(phase == 1.0, far, t) * self._scale
+        enter = box_interval(view.where.low, view.where.high, *self._rays)[0]
+        distance = enter + np.where(phase == 1.0, far, t) * view.memory.frame.scale
         wrong = ~hit | (np.abs(distance - self._distance) > self._apart)
         return int(np.count_nonzero(wrong & self._counts)), int(np.count_nonzero(self._counts))
-
-
-def enter_of(view: View, origins: Array, directions: Array) -> Array:
-    """Where rays enter the region's box."""
-    from hqmodel.field.rays import box_interval
-
-    return box_interval(view.where.low, view.where.high, origins, directions)[0]
 
 
 def report(ctx: moderngl.Context, name: str, scene: Scene, size: tuple[int, int]) -> None:
@@ -192,18 +191,25 @@ def report(ctx: moderngl.Context, name: str, scene: Scene, size: tuple[int, int]
     judge = Judge(view)
     seconds, states = ours(ctx, view)
     mean, most = looks(ctx, view)
-    missed, judged = judge.missed(states)
+    missed, judged = judge.missed(states, view)
     print(f"{name}, {size[0]} x {size[1]}, {judged} rays judged", flush=True)
     print(
         f"  segment bounds     {1e3 * seconds:9.1f} ms          {missed:5d} missed   looks a ray: mean {mean:.1f}, most {most}",
         flush=True,
     )
-    rivals = (("64 steps", "FIXED", 64), ("256 steps", "FIXED", 256), ("sphere tracing", "LIPSCHITZ", 256))
-    for label, define, count in rivals:
-        theirs, found = rival(ctx, view, define, count)
-        missed, _ = judge.missed(found)
+    wide = view_of(ctx, scene, size, in_cube=True)
+    rivals = (
+        ("64 steps", view, "FIXED", 64),
+        ("256 steps", view, "FIXED", 256),
+        ("256 in a cube", wide, "FIXED", 256),
+        ("sphere tracing", view, "LIPSCHITZ", 256),
+    )
+    for label, begun, define, count in rivals:
+        theirs, found = rival(ctx, begun, define, count)
+        missed, _ = judge.missed(found, begun)
         print(f"  {label:18s} {1e3 * theirs:9.1f} ms {theirs / seconds:6.1f} x {missed:5d} missed", flush=True)
-    view.memory.release()
+    for seen in (view, wide):
+        seen.memory.release()
 
 
 def main() -> None:
