@@ -76,7 +76,7 @@ def finished(
         still()
         pinched = np.append(pinched, pinched[mesh.vertices[:, axis] != 0])
         mesh = reflected(mesh, axis)
-    return parted(mesh, pinched)
+    return parted(mesh, pinched, still)
 
 
 def _fewer(

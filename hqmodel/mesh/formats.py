@@ -19,7 +19,7 @@ from . import binary
 from .mesh import Array, Mesh, MeshError
 from .placing import FORMATS, SIZES
 
-_ROWS = 1 << 15
+_ROWS = 1 << 13
 # Text files keep positions to this many digits of the longest side, wherever the body lies.
 _DIGITS = 9
 # Binary ones keep float32: near the origin far more than enough, far from it at last too coarse for the body's own size.

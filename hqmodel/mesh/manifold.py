@@ -7,6 +7,7 @@ both cells even put a triangle into the face between them, back to back, the two
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -19,15 +20,18 @@ _ROUNDS = 8
 _ASIDE = 0.1
 
 
-def parted(mesh: Mesh, suspects: NDArray[np.bool_]) -> Mesh:
+def parted(mesh: Mesh, suspects: NDArray[np.bool_], still: Callable[[], None]) -> Mesh:
     """The mesh with at most two faces to every edge; itself where that holds already.
 
-    `suspects` (V,) tells the vertices between which other edges may be.
+    `suspects` (V,) tells the vertices between which other edges may be. `still` is called now and then; whatever it raises ends
+    the work.
     """
+    still()
     twice = _directed_twice(mesh.faces, suspects)
     if twice:
         mesh = replace(mesh, faces=_without_folds(mesh.faces, np.unique(twice)))
     for _ in range(_ROUNDS):
+        still()
         twice = _directed_twice(mesh.faces, suspects)
         if not twice:
             break

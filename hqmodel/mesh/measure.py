@@ -57,14 +57,24 @@ def largest_distance(terms: Terms, vertices: Array, faces: Triangles, stride: fl
 
 
 def _along(terms: Terms, points: Array, normals: Array, stride: float) -> Array:
-    """How far the surface is from points (n, 3) along their normals (n, 3), one way or the other, to a hundredth of a stride;
-    inf if further than four strides."""
-    steps = stride * np.arange(-4, 4.001, 0.01)
+    """How far the surface is from points (n, 3) along their normals (n, 3), one way or the other; inf if beyond four strides."""
+    inside = log_ratio(terms, points) > 0
+
+    def other(way: float, away: Array) -> NDArray[np.bool_]:
+        return (log_ratio(terms, points + (way * away)[:, None] * normals) > 0) != inside
+
     result = np.full(len(points), np.inf)
-    for i, (point, normal) in enumerate(zip(points, normals, strict=True)):
-        inside = log_ratio(terms, point + np.multiply.outer(steps, normal)) > 0
-        there = np.abs(steps[inside != (log_ratio(terms, point[None]) > 0)])
-        result[i] = np.min(there, initial=np.inf)
+    for way in (1.0, -1.0):
+        low, high = np.zeros(len(points)), np.full(len(points), np.inf)
+        for step in stride * 2.0 ** np.arange(-8, 3):
+            there = other(way, np.full(len(points), step))
+            high = np.where(np.isinf(high) & there, step, high)
+            low = np.where(np.isinf(high), step, low)
+        for _ in range(10):
+            middle = np.where(np.isinf(high), 0.0, (low + high) / 2)
+            there = other(way, middle)
+            low, high = np.where(there, low, middle), np.where(there, middle, high)
+        result = np.minimum(result, high)
     return result
 
 
