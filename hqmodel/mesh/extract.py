@@ -123,7 +123,7 @@ class _Nodes:
     def into_sheets(self, samples: Samples, sampling: Sampling) -> None:
         """Move nodes into sheets that the samples (places,) don't see, and have them see these, in place."""
         found = moves(self.of_block, samples, self.named, sampling)
-        if len(found.places):
+        if found is not None and len(found.places):
             self._shift = np.zeros((len(self), 3))
             self._shift[found.places, found.axis] = found.shift
             self._found[found.places] = (samples[found.places] > 0) != (found.samples > 0)

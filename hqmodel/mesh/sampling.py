@@ -52,6 +52,16 @@ class Sampling:
     def __init__(self, terms: Terms, grid: Grid, still: Callable[[], None]) -> None:
         self._terms, self._grid, self._still = terms, grid, still
 
+    @property
+    def convex(self) -> bool:
+        """Whether what is inside is convex: a single shape of exponents from 1, none of its strips hyperbolic."""
+        terms = self._terms
+        return (
+            len(terms) == 1
+            and bool(terms.positive[0] and np.all(terms.group_sign > 0))
+            and min(float(np.min(terms.inner)), float(np.min(terms.outer))) >= 1
+        )
+
     def at(self, nodes: NDArray[Any]) -> Samples:
         """The near-linear field at nodes (n, 3), whose numbers may have fractions: never 0, and -inf beyond a cut."""
         self._still()

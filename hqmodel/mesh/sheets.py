@@ -55,13 +55,17 @@ class _Edges(NamedTuple):
     after: NDArray[np.bool_]
 
 
-def moves(of_block: NDArray[np.int32], samples: Samples, named: Named, sampling: Sampling) -> Moves:
-    """The moves that lead nodes into what is between them.
+def moves(of_block: NDArray[np.int32], samples: Samples, named: Named, sampling: Sampling) -> Moves | None:
+    """The moves that lead nodes into what is between them; None where nothing can be.
 
     `of_block` (n, 125) tells which of the `samples` (p,) belong to each block's nodes in the order of their coordinates, and
     `named` the numbers (m, 3) of the nodes at places (m,).
     """
-    parts = [_at_peaks(of_block, samples, named, sampling), *_in_thin_strips(of_block, samples, named, sampling)]
+    parts = list(_in_thin_strips(of_block, samples, named, sampling))
+    if not sampling.convex:
+        parts.append(_at_peaks(of_block, samples, named, sampling))
+    if not parts:
+        return None
     line, axis, start, end, before, after, share, value = (np.concatenate(column) for column in zip(*parts, strict=True))
     parted = before | after
     back = np.where(parted, before & (~after | (share < 0.5)), start != line)
@@ -101,7 +105,7 @@ class _Lines:
 
 
 def _at_peaks(of_block: NDArray[np.int32], samples: Samples, named: Named, sampling: Sampling) -> Found:
-    """Where the samples tell that there may be a peak."""
+    """Where the samples tell that there may be a peak, as between shapes and in cusps."""
     lines = _Lines(of_block, samples)
     parts = [lines.edges(axis, number, hit) for axis in range(3) for number, hit in enumerate(_suspect(*lines.along(axis)[1:]))]
     edges = _Edges(*(np.concatenate(column) for column in zip(*parts, strict=True)))
