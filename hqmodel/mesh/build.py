@@ -181,7 +181,7 @@ def _piece(scene: Scene, terms: Terms, balance: Balance, stopped: threading.Even
     if patch is None or not len(patch.faces):
         return None
     node, axis, faces = patch.node, patch.axis, patch.faces
-    vertices, slopes = place_vertices(local, grid, node, axis, patch.ends, patch.aside)
+    vertices, slopes = place_vertices(local, grid, node, axis, patch.ends, patch.aside, still)
     still()
     normals, colors, off = clothed(scene, local, grid, vertices, slopes, faces, within=axis == AT_NODE)
     pulls = balance.pulls(faces, off, normals)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -28,33 +29,43 @@ _PRECISE = 1e-8
 
 
 def place_vertices(
-    terms: Terms, grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64], ends: Samples, aside: Array | None
+    terms: Terms,
+    grid: Grid,
+    node: NDArray[np.int64],
+    axis: NDArray[np.int64],
+    ends: Samples,
+    aside: Array | None,
+    still: Callable[[], None],
 ) -> tuple[Array, Array]:
     """World positions (V, 3), on the surface, of the vertices on the grid's edges from `node` (V, 3) along `axis` (V,), and the
     near-linear field's gradients there, (V, 3). `ends` and `aside` are a patch's.
 
-    Exactly in the planes of the grid that their edges lie in at a mirror plane or a cut.
+    Exactly in the planes of the grid that their edges lie in at a mirror plane or a cut. `still` is called now and then;
+    whatever it raises ends the work.
     """
     caps, bent = axis == AT_NODE, np.zeros(len(axis), dtype=bool) if aside is None else aside.any(axis=(1, 2))
     straight = np.flatnonzero(~(caps | bent))
     if len(straight) == len(axis):
-        return _placed(terms, grid, _Edges.of(grid, node, axis, ends), node, _CROWDED)
+        return _placed(terms, grid, _Edges.of(grid, node, axis, ends), node, _CROWDED, still)
     points, slopes = np.empty((len(axis), 3), order="F"), np.empty((len(axis), 3), order="F")
     points[caps] = grid.points(node[caps] if aside is None else node[caps] + aside[caps, 0])
     slopes[caps] = near_linear_gradient(terms, points[caps])[1]
     if straight.size:
         edges = _Edges.of(grid, rows(node, straight), axis[straight], ends[straight])
-        points[straight], slopes[straight] = _placed(terms, grid, edges, rows(node, straight), _CROWDED)
+        points[straight], slopes[straight] = _placed(terms, grid, edges, rows(node, straight), _CROWDED, still)
     bent &= ~caps
     if aside is not None and bent.any():
         askew = _Askew.of(grid, node[bent], axis[bent], ends[bent], aside[bent])
-        points[bent], slopes[bent] = _placed(terms, grid, askew, node[bent], _SPREAD)
+        points[bent], slopes[bent] = _placed(terms, grid, askew, node[bent], _SPREAD, still)
     return points, slopes
 
 
-def _placed(terms: Terms, grid: Grid, edges: _Edges | _Askew, node: NDArray[np.int64], apart: float) -> tuple[Array, Array]:
+def _placed(
+    terms: Terms, grid: Grid, edges: _Edges | _Askew, node: NDArray[np.int64], apart: float, still: Callable[[], None]
+) -> tuple[Array, Array]:
     """As `place_vertices`; none stays nearer to a node than the share `apart` of its edge."""
-    points, slopes, share = _on_edges(terms, edges)
+    points, slopes, share = _on_edges(terms, edges, still)
+    still()
     near = np.flatnonzero((share < apart) | (share > 1 - apart))
     if near.size:
         crowded, share = edges.some(near), share.take(near)
@@ -132,7 +143,7 @@ class _Askew(NamedTuple):
         return dots(slopes, self.way)
 
 
-def _on_edges(terms: Terms, edges: _Edges | _Askew) -> tuple[Array, Array, Array]:
+def _on_edges(terms: Terms, edges: _Edges | _Askew, still: Callable[[], None]) -> tuple[Array, Array, Array]:
     """Where edges meet the surface: the points (n, 3), the gradients there (n, 3), and the shares of the edges (n,).
 
     One Newton step from where the samples at the ends put it, as these are nearly linear; where that is not enough, a root.
@@ -144,7 +155,8 @@ def _on_edges(terms: Terms, edges: _Edges | _Askew) -> tuple[Array, Array, Array
         near = (np.abs(step) < _NEARLY) & (share + step > 0) & (share + step < 1)
     share += np.where(near, step, 0.0)
     rest = np.flatnonzero(~near)
-    share[rest] = _roots(terms, edges.some(rest))
+    share[rest] = _roots(terms, edges.some(rest), still)
+    still()
     points = edges.at(share)
     slopes[rest] = near_linear_gradient(terms, points[rest])[1]
     return points, slopes, share
@@ -160,7 +172,7 @@ def _held(grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64]) -> NDArr
     return held
 
 
-def _roots(terms: Terms, edges: _Edges | _Askew) -> Array:
+def _roots(terms: Terms, edges: _Edges | _Askew, still: Callable[[], None]) -> Array:
     """Shares (n,) of edges at which the field is 0, by Chandrupatla's method (1997, Adv. Eng. Software 28).
 
     The samples at the ends are of opposite sign. The bracket of each root shrinks below `_PRECISE` of its edge, by inverse
@@ -175,6 +187,7 @@ def _roots(terms: Terms, edges: _Edges | _Askew) -> Array:
     scale = np.abs(fa - fb)
     step = np.clip(np.abs(fa) / scale, 0.05, 0.95)  # a straight line first: the samples are nearly linear
     while active.size:
+        still()
         x = a + step * (b - a)
         f = near_linear(terms, log_ratio(terms, edges.at(x)))
         same = (f > 0) == (fa > 0)
