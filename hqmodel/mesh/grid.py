@@ -29,7 +29,6 @@ class Grid:
 
     nodes: tuple[Array, Array, Array]
     outside: tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]
-    cell: float  # the longest edge of a cell
 
     @property
     def blocks(self) -> tuple[int, int, int]:
@@ -41,6 +40,11 @@ class Grid:
     def steps(self) -> Array:
         """From node to node along each axis, (3,)."""
         return np.array([np.max(np.diff(nodes)) for nodes in self.nodes])
+
+    @cached_property
+    def cell(self) -> float:
+        """The longest edge of a cell."""
+        return float(np.max(self.steps))
 
     @property
     def cuts(self) -> list[tuple[int, float, float]]:
@@ -83,8 +87,7 @@ def make_grid(region: Region, resolution: int, mirrored: tuple[int, ...]) -> Gri
     cell = float(np.max(region.size)) / resolution
     axes = [_axis(region.low[i], region.high[i], cell, i in mirrored, region.cut) for i in range(3)]
     nodes, outside = tuple(axis[0] for axis in axes), tuple(axis[1] for axis in axes)
-    longest = max(float(np.max(np.diff(axis))) for axis in nodes)
-    return Grid((nodes[0], nodes[1], nodes[2]), (outside[0], outside[1], outside[2]), longest)
+    return Grid((nodes[0], nodes[1], nodes[2]), (outside[0], outside[1], outside[2]))
 
 
 def _axis(low: float, high: float, cell: float, mirrored: bool, cut: bool) -> tuple[Array, NDArray[np.bool_]]:

@@ -9,7 +9,8 @@ keep their sides, those that were culled too, and all blocks at a node move it a
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -90,8 +91,12 @@ class _Lines:
         """The places, the distances from the level, and whether they are outside, of the nodes of all lines, (5, ...) each."""
         return [np.moveaxis(values, axis, 0) for values in (self.places, self.size, self.outside)]
 
-    def edges(self, axis: int, number: int, hit: NDArray[np.bool_]) -> _Edges:
-        """Those edges of the lines along an axis that are hit, where their ends are on the same side."""
+    def edges(self, hits: Callable[[int], Iterable[NDArray[np.bool_]]]) -> _Edges:
+        """The edges that are hit, edge by edge of the lines along an axis, where their ends are on the same side."""
+        parts = [self._hit(axis, number, hit) for axis in range(3) for number, hit in enumerate(hits(axis))]
+        return _Edges(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+
+    def _hit(self, axis: int, number: int, hit: NDArray[np.bool_]) -> _Edges:
         place, size, out = self.along(axis)
         where = np.unravel_index(np.flatnonzero(hit), hit.shape)
         same = (out[number][where] == out[number + 1][where]) & np.isfinite(size[number][where] + size[number + 1][where])
@@ -107,8 +112,7 @@ class _Lines:
 def _at_peaks(of_block: NDArray[np.int32], samples: Samples, named: Named, sampling: Sampling) -> Found:
     """Where the samples tell that there may be a peak, as between shapes and in cusps."""
     lines = _Lines(of_block, samples)
-    parts = [lines.edges(axis, number, hit) for axis in range(3) for number, hit in enumerate(_suspect(*lines.along(axis)[1:]))]
-    edges = _Edges(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+    edges = lines.edges(lambda axis: _suspect(*lines.along(axis)[1:]))
     outside = samples[edges.start] < 0
     share, value = _peaks(named(edges.start).astype(float), edges.axis, outside, sampling)
     hit = (value > 0) == outside
@@ -121,18 +125,22 @@ def _in_thin_strips(of_block: NDArray[np.int32], samples: Samples, named: Named,
     for strip in sampling.thin_strips():
         h, along = strip.of(first), np.multiply.outer(strip.gradient, _STEPS)
         crossed = np.abs(h + np.sum(strip.gradient) * BLOCK / 2) < np.sum(np.abs(strip.gradient)) * BLOCK / 2
-        lines = _Lines(of_block[crossed], samples)
+        if not crossed.any():
+            continue
         i, j, k = along
         ahead = i[:, None, None, None] + j[:, None, None] + k[:, None] + h[crossed] > 0
-        for axis in range(3):
-            sides = np.moveaxis(ahead, axis, 0)
-            for number in range(BLOCK):
-                edges = lines.edges(axis, number, sides[number] != sides[number + 1])
-                node = named(edges.start).astype(float)
-                share = np.clip(-strip.of(node) / (strip.gradient[axis] or 1.0), _APART, 1 - _APART)
-                node[:, axis] += share
-                near = strip.near(node)
-                yield *(column[near] for column in (*edges, share)), sampling.at(node[near])
+        edges = _Lines(of_block[crossed], samples).edges(partial(_changes, ahead))
+        node = named(edges.start).astype(float)
+        share = np.clip(-strip.of(node) / strip.gradient[edges.axis], _APART, 1 - _APART)
+        node[np.arange(len(node)), edges.axis] += share
+        near = strip.near(node)
+        yield *(column[near] for column in (*edges, share)), sampling.at(node[near])
+
+
+def _changes(ahead: NDArray[np.bool_], axis: int) -> Iterator[NDArray[np.bool_]]:
+    """Which edges of lines along an axis have ends of which one is ahead, (5, 5, 5, n), edge by edge."""
+    sides = np.moveaxis(ahead, axis, 0)
+    return (sides[number] != sides[number + 1] for number in range(BLOCK))
 
 
 def _suspect(u: Samples, out: NDArray[np.bool_]) -> Iterator[NDArray[np.bool_]]:
