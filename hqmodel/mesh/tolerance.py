@@ -6,7 +6,7 @@ measured at points no further apart than the cells of the grid that it came from
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,6 +21,8 @@ from .refine import to_surface
 from .splits import Indices, Part, Plane
 
 Bools = NDArray[np.bool_]
+Near = Callable[[Array, Array, Array], Bools]
+Stage = tuple[Array, Triangles, Array]
 
 # Cells along the longest side that a body is first looked at with, and the fewest and the most that are chosen for a tolerance.
 COARSE, FEWEST, MOST = 48, 64, 512
@@ -35,6 +37,9 @@ _BEFORE, _MEANWHILE, _AT_LAST = 0.5, 0.85, 0.97
 # How far off quadrics may think that faces come to lie, in tolerances: they judge on the safe side, ever more so.
 _SURELY, _PERHAPS = 0.7, 3.0
 _ROUNDS = 12
+# How often it is tried to reduce a mesh, and how far about faces that came to lie too far off it is then left as it is, in cells
+# or tolerances, whichever are larger.
+_TRIES, _ROOM = 4, 2.0
 _STEPS = 6
 # A point is on the surface when the last step towards it was shorter than this share of a cell.
 _ARRIVED = 1e-5
@@ -64,19 +69,12 @@ def adapted(
     away = np.abs(off).astype(float)
     doubtful = away > _DOUBTFUL * tolerance
     away[doubtful] = surface.off(vertices, faces[doubtful])
-    stages = [_refined(surface, vertices, faces, away, _BEFORE * tolerance)]
-
-    def place(points: Array, held: Bools) -> Array:
-        return to_surface(surface.terms, points, surface.cell, _STEPS, held)[0]
-
+    stage = _refined(surface, vertices, faces, away, _BEFORE * tolerance)
     # First as far as quadrics alone warrant it: that is quick, and little is left to measure.
     for most, near in ((_SURELY, None), (_PERHAPS, surface.near(_MEANWHILE * tolerance))):
-        vertices, faces, _ = stages[-1]
-        fewer = simplified(vertices, faces, 0, surface.flat(vertices) > 0, mirrored, place, most * tolerance, near, surface.still)
-        stages.append(_refined(surface, *fewer, surface.off(*fewer), _AT_LAST * tolerance))
-    errors = [float(np.max(away, initial=0.0)) for _, _, away in stages]
-    best = max(stage for stage, error in enumerate(errors) if error <= max(tolerance, errors[0]))
-    return *stages[best][:2], errors[best]
+        stage = _reduced(surface, stage, mirrored, most * tolerance, near, tolerance)
+    vertices, faces, away = stage
+    return vertices, faces, float(np.max(away, initial=0.0))
 
 
 def fineness(terms: Terms, coarse: Mesh, tolerance: float) -> int:
@@ -118,7 +116,7 @@ class Surface:
             number[points[:, axis] == plane, axis] = index + 1
         return number
 
-    def near(self, most: float) -> Callable[[Array, Array, Array], Bools]:
+    def near(self, most: float) -> Near:
         """Tells which triangles, by their corners (n, 3) each, lie about within a distance."""
 
         steps = _STEPS if np.any(self.terms.inner < 1) else 0  # where slopes are infinite, distances to first order are nothing
@@ -132,6 +130,21 @@ class Surface:
         """How far each face is off the surface at most, (F,), as far as that can be seen by points a cell apart."""
         result = np.zeros(len(faces))
         corners = vertices[faces.T]
+        for some, lattice in self._lattices(corners):
+            result[some] = self._measured(corners[:, some], lattice, _STEPS)
+        return result
+
+    def beside(self, points: Array, vertices: Array, faces: Triangles, reach: float) -> Bools:
+        """Which of the points (n, 3) are about as near to any of the faces as `reach`, which is no less than a cell."""
+        from scipy.spatial import cKDTree  # late: it is slow to load
+
+        corners = vertices[faces.T]
+        spots = [np.tensordot(lattice, corners[:, some], axes=1).reshape(-1, 3) for some, lattice in self._lattices(corners)]
+        distance, _ = cKDTree(np.concatenate(spots)).query(points, distance_upper_bound=reach)
+        return np.isfinite(distance)
+
+    def _lattices(self, corners: Array) -> Iterator[tuple[Indices, Array]]:
+        """The numbers of some faces, by their corners (3, F, 3), and a lattice whose points lie a cell apart on them, for all."""
         longest = np.sqrt(np.max(np.sum((corners - np.roll(corners, 1, axis=0)) ** 2, axis=2), axis=0))
         parts = np.clip(np.ceil(longest / self.cell), 3, _FINEST).astype(int)
         for number in np.unique(parts):
@@ -139,8 +152,7 @@ class Surface:
             lattice = _lattice(int(number))
             for some in np.array_split(rows, len(rows) * len(lattice) // _AT_ONCE + 1):
                 self.still()
-                result[some] = self._measured(corners[:, some], lattice, _STEPS)
-        return result
+                yield some, lattice
 
     def _measured(self, corners: Array, lattice: Array, steps: int) -> Array:
         """How far triangles, by their corners (3, n, 3), are off at most at a lattice's points, (n,); within caps they aren't."""
@@ -165,6 +177,26 @@ def _common(planes: Indices) -> Bools:
     return np.all(planes == planes[0], axis=0) & (planes[0] > 0)
 
 
+def _reduced(
+    surface: Surface, stage: Stage, mirrored: tuple[int, ...], most: float, near: Near | None, tolerance: float
+) -> Stage:
+    """The mesh with fewer faces, and how far each is off; where they turn out too far off, it is done again without these."""
+
+    def place(points: Array, held: Bools) -> Array:
+        return to_surface(surface.terms, points, surface.cell, _STEPS, held)[0]
+
+    vertices, faces, off = stage
+    allowed = max(tolerance, float(np.max(off, initial=0.0)))
+    held, reach = surface.flat(vertices) > 0, _ROOM * max(surface.cell, tolerance)
+    for _ in range(_TRIES):
+        fewer = simplified(vertices, faces, 0, held, mirrored, place, most, near, surface.still)
+        result = _refined(surface, *fewer, surface.off(*fewer), _AT_LAST * tolerance)
+        if np.max(result[2], initial=0.0) <= allowed:
+            return result
+        held[surface.beside(vertices, result[0], result[1][result[2] > tolerance], reach)] = True
+    return stage
+
+
 def _lattice(parts: int) -> Array:
     """Weights (n, 3) of the corners at points of a triangle whose sides are divided in so many parts, corners left out."""
     i, j = np.meshgrid(np.arange(parts + 1), np.arange(parts + 1), indexing="ij")
@@ -172,7 +204,7 @@ def _lattice(parts: int) -> Array:
     return weights[(weights.min(axis=1) >= 0) & (weights.max(axis=1) < parts)] / parts
 
 
-def _refined(surface: Surface, vertices: Array, faces: Triangles, off: Array, most: float) -> tuple[Array, Triangles, Array]:
+def _refined(surface: Surface, vertices: Array, faces: Triangles, off: Array, most: float) -> Stage:
     """The mesh with faces split that are further off than `most`, and how far each is; `off` (F,) is that before."""
     for _ in range(_ROUNDS):
         surface.still()
@@ -184,7 +216,11 @@ def _refined(surface: Surface, vertices: Array, faces: Triangles, off: Array, mo
         near = marks(marked, faces) >= 2
         corners, which = np.unique(faces[near], return_inverse=True)
         part = Part(surface.terms, vertices[corners], which.reshape(-1, 3), surface.planes, surface.still)
-        part.split(*_splits(surface, part, off[near], most))
+        edges, middles, there = _splits(surface, part, off[near], most)
+        part.split(*crossings(part, edges, surface.cell))
+        count = len(part.points)
+        there &= np.isin(edges @ (count, 1), part.edges() @ (count, 1))  # those that no crease splits
+        part.split(edges[there], middles[there])
         if len(part.points) == len(corners):
             break
         number = np.append(corners, np.arange(len(part.points) - len(corners)) + len(vertices)).astype(np.int32)
@@ -197,8 +233,9 @@ def _refined(surface: Surface, vertices: Array, faces: Triangles, off: Array, mo
     return vertices, faces, off
 
 
-def _splits(surface: Surface, part: Part, off: Array, most: float) -> tuple[Indices, Array]:
-    """One side of each face that is further off than `most`, and where to split it; `off` (F,) is how far each face is.
+def _splits(surface: Surface, part: Part, off: Array, most: float) -> tuple[Indices, Array, Bools]:
+    """One side of each face that is further off than `most`, where it may be split by its middle, and whether it can;
+    `off` (F,) is how far each face is.
 
     The side that is off furthest itself, or the longest where none is off by half as much as the face.
     """
@@ -216,8 +253,4 @@ def _splits(surface: Surface, part: Part, off: Array, most: float) -> tuple[Indi
     wanted = np.unique(of_side[np.arange(len(chosen)), chosen])
     ahead = dots(part.looking(middles), part.normals[edges].sum(axis=1)) > 0
     there = (last < _ARRIVED * surface.cell) & (away < 0.5 * length) & ahead
-    crossed, on_crease = crossings(part, edges[wanted], surface.cell)
-    rows = wanted[np.isin(numbers[wanted], crossed @ (count, 1))]
-    middles[rows], there[rows] = on_crease, True
-    wanted = wanted[there[wanted]]
-    return edges[wanted], middles[wanted]
+    return edges[wanted], middles[wanted], there[wanted]
