@@ -40,7 +40,8 @@ _ROUNDS = 12
 # How often it is tried to reduce a mesh, and how far about faces that came to lie too far off it is then left as it is, in cells
 # or tolerances, whichever are larger.
 _TRIES, _ROOM = 4, 2.0
-_STEPS = 6
+# The most Newton steps that a point takes towards the surface; none follows one shorter than these shares of its way or a cell.
+_STEPS, _FIRM, _EXACT = 6, 1e-3, 1e-9
 # A point is on the surface when the last step towards it was shorter than this share of a cell.
 _ARRIVED = 1e-5
 # Faces whose middles are off by less than this share of the tolerance are not, elsewhere, off by what they may be.
@@ -119,19 +120,27 @@ class Surface:
     def near(self, most: float) -> Near:
         """Tells which triangles, by their corners (n, 3) each, lie about within a distance."""
 
-        steps = _STEPS if np.any(self.terms.inner < 1) else 0  # where slopes are infinite, distances to first order are nothing
+        roughly = not np.any(self.terms.inner < 1)  # where slopes are infinite, distances to first order are nothing
 
         def near(a: Array, b: Array, c: Array) -> Bools:
-            return self._measured(np.stack([a, b, c]), _SPOTS, steps) <= most
+            return self._measured(np.stack([a, b, c]), _SPOTS, roughly) <= most
 
         return near
+
+    def nearest(self, points: Array, held: Bools) -> Array:
+        """The points (n, 3) moved onto the surface, held coordinates, (n, 3), kept: by as many steps as each takes."""
+        moved, going = points.copy(), np.arange(len(points))
+        for _ in range(_STEPS):
+            moved[going], last = to_surface(self.terms, moved[going], self.cell, 1, held[going])
+            going = going[last > np.maximum(_FIRM * lengths(moved[going] - points[going]), _EXACT * self.cell)]
+        return moved
 
     def off(self, vertices: Array, faces: Triangles) -> Array:
         """How far each face is off the surface at most, (F,), as far as that can be seen by points a cell apart."""
         result = np.zeros(len(faces))
         corners = vertices[faces.T]
         for some, lattice in self._lattices(corners):
-            result[some] = self._measured(corners[:, some], lattice, _STEPS)
+            result[some] = self._measured(corners[:, some], lattice)
         return result
 
     def beside(self, points: Array, vertices: Array, faces: Triangles, reach: float) -> Bools:
@@ -154,20 +163,22 @@ class Surface:
                 self.still()
                 yield some, lattice
 
-    def _measured(self, corners: Array, lattice: Array, steps: int) -> Array:
-        """How far triangles, by their corners (3, n, 3), are off at most at a lattice's points, (n,); within caps they aren't."""
+    def _measured(self, corners: Array, lattice: Array, roughly: bool = False) -> Array:
+        """How far triangles, by their corners (3, n, 3), are off at most at a lattice's points, (n,); within caps
+        they aren't. `roughly`: to first order."""
         flat = np.stack([self.flat(points) for points in corners])
         capped = np.any(_common(flat) & (flat[0] <= self.cuts), axis=1)
         points = np.tensordot(lattice, corners, axes=1)
-        held = np.stack([_common(flat[weights > 0]) for weights in lattice])
-        distance = self._distance(points[:, ~capped].reshape(-1, 3), held[:, ~capped].reshape(-1, 3), steps)
+        sides, of_side = np.unique(lattice > 0, axis=0, return_inverse=True)
+        held = np.stack([_common(flat[side]) for side in sides])[of_side]
+        distance = self._distance(points[:, ~capped].reshape(-1, 3), held[:, ~capped].reshape(-1, 3), roughly)
         result = np.zeros(corners.shape[1])
         result[~capped] = np.max(distance.reshape(len(lattice), -1), axis=0)
         return result
 
-    def _distance(self, points: Array, held: Bools, steps: int) -> Array:
-        if steps:
-            return lengths(to_surface(self.terms, points, self.cell, steps, held)[0] - points)
+    def _distance(self, points: Array, held: Bools, roughly: bool) -> Array:
+        if not roughly:
+            return lengths(self.nearest(points, held) - points)
         linear, slope = near_linear_gradient(self.terms, points)
         return np.abs(linear) / np.maximum(lengths(np.where(held, 0.0, slope)), 1e-200)
 
@@ -182,14 +193,11 @@ def _reduced(
 ) -> Stage:
     """The mesh with fewer faces, and how far each is off; where they turn out too far off, it is done again without these."""
 
-    def place(points: Array, held: Bools) -> Array:
-        return to_surface(surface.terms, points, surface.cell, _STEPS, held)[0]
-
     vertices, faces, off = stage
     allowed = max(tolerance, float(np.max(off, initial=0.0)))
     held, reach = surface.flat(vertices) > 0, _ROOM * max(surface.cell, tolerance)
     for _ in range(_TRIES):
-        fewer = simplified(vertices, faces, 0, held, mirrored, place, most, near, surface.still)
+        fewer = simplified(vertices, faces, 0, held, mirrored, surface.nearest, most, near, surface.still)
         result = _refined(surface, *fewer, surface.off(*fewer), _AT_LAST * tolerance)
         if np.max(result[2], initial=0.0) <= allowed:
             return result
