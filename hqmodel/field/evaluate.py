@@ -21,6 +21,10 @@ _CHUNK = 1 << 17
 # exp of this is just inside float64.
 _TOP = 709.0
 _STEEP = 1e140
+# A lone shape's H/C below which its root is no longer taken: L has no digits of it left.
+_CENTRE = 1e-12
+# Shapes that only reach the level together are taken to exceed it by this share of their hardness.
+_SOFTEST = 1.0
 
 
 class Curvature(NamedTuple):
@@ -60,12 +64,12 @@ def near_linear_gradient(terms: Terms, points: ArrayLike) -> tuple[Array, Array]
     Their quotient is a Newton step that neither creeps from outside nor leaps from inside.
     """
     ratio, slope = log_gradient(terms, points)
-    hard, steep = _typical(terms)
-    share = _share(ratio, hard)
-    root = share ** (1.0 / steep)
+    way = _Straightening.of(terms)
+    share = 1.0 - ratio / way.hard
+    held = np.maximum(share, way.least)
     with np.errstate(over="ignore"):
-        slope *= (root / (share * (hard * steep)))[..., None]
-    return 1.0 - root, np.clip(slope, -HUGE, HUGE, out=slope)
+        slope *= ((held * (1.0 + (held - share))) ** (1.0 / way.steep - 1.0) / (way.hard * way.steep))[..., None]
+    return near_linear(terms, ratio), np.clip(slope, -HUGE, HUGE, out=slope)
 
 
 def curvature(terms: Terms, points: ArrayLike) -> Curvature:
@@ -92,10 +96,12 @@ def term_weights(terms: Terms, points: ArrayLike) -> Array:
 def near_linear(terms: Terms, ratio: Array) -> Array:
     """L made nearly linear across the surface, (...,): (H/C)^(1/gamma) turned inside out, for a lone shape.
 
-    Same sign as L, 1 at most; what to hand to anything that interpolates.
+    Same sign as L, and it rises with it everywhere; what to hand to anything that interpolates.
     """
-    hard, steep = _typical(terms)
-    return 1.0 - _share(ratio, hard) ** (1.0 / steep)
+    way = _Straightening.of(terms)
+    share = 1.0 - ratio / way.hard
+    held = np.maximum(share, way.least)
+    return 1.0 - held ** (1.0 / way.steep) * way.beyond(held - share)
 
 
 def near_linear_single(terms: Terms, ratio: Array, rounding: float = 0.0) -> NDArray[np.float32]:
@@ -103,21 +109,42 @@ def near_linear_single(terms: Terms, ratio: Array, rounding: float = 0.0) -> NDA
 
     Negative, too, where the field is no further above its level than `rounding`.
     """
-    hard, steep = _typical(terms)
-    root = np.log(np.clip(1.0 - ratio / hard, 1e-37, 1e37).astype(np.float32))
-    root /= np.float32(steep)
-    size = np.maximum(np.abs(1.0 - np.exp(root, out=root), out=root), np.float32(1e-37), out=root)
-    return np.where(ratio > rounding * hard * steep, size, -size)
+    way = _Straightening.of(terms)
+    share = 1.0 - ratio / way.hard
+    root = np.log(np.clip(share, way.least, 1e37).astype(np.float32))
+    root /= np.float32(way.steep)
+    np.exp(root, out=root)
+    deep = share < way.least
+    if deep.any():
+        root[deep] *= way.beyond(way.least - share[deep])
+    size = np.maximum(np.abs(1.0 - root, out=root), np.float32(1e-37), out=root)
+    return np.where(ratio > rounding * way.hard * way.steep, size, -size)
 
 
-def _share(ratio: Array, hard: float) -> Array:
-    """H/C of a lone shape, (...,), from L: 1 on the surface."""
-    return np.maximum(1.0 - ratio / hard, 1e-300)
+class _Straightening(NamedTuple):
+    """How L becomes nearly linear: by the root `steep`, the largest exponent, of 1 - L/hard, for a lone shape H/C.
 
+    `hard` is the most that L comes to where only one shape adds. Where several do, or a hyperbolic one, it may be more: from the
+    share `least` on, it goes on as the root of what L is beyond that, with the slope that it has there.
+    """
 
-def _typical(terms: Terms) -> tuple[float, float]:
-    """The largest hardness of what adds, and the largest exponent."""
-    return float(np.max(terms.hardness[terms.positive], initial=1e-300)), float(np.max(terms.outer, initial=1.0))
+    hard: float
+    steep: float
+    least: float
+
+    @classmethod
+    def of(cls, terms: Terms) -> _Straightening:
+        """For these terms."""
+        adds = terms.positive
+        hardness = float(np.max(terms.hardness[adds], initial=1e-300))
+        top = np.max(terms.log_coefficient[adds] + terms.hardness[adds] * terms.constant[adds], initial=-np.inf)
+        hard = max(float(top) - (np.log(terms.level) if terms.level > 0 else 0.0), _SOFTEST * hardness)
+        steep = float(np.max(terms.outer, initial=1.0))
+        return cls(hard, steep, 1 / (2 + steep) if len(terms) > 1 or terms.hyperbolic else _CENTRE)
+
+    def beyond(self, excess: Array) -> Array:
+        """What the root of the least share is to be multiplied by where the share is less by an `excess`."""
+        return 1.0 - ((1.0 + excess) ** (1.0 / self.steep) - 1.0) / self.least
 
 
 def exponents(terms: Terms, h_sums: Array) -> Array:

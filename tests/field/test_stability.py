@@ -3,13 +3,26 @@
 from __future__ import annotations
 
 import warnings
+from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hqmodel.field import Terms, curvature, gradient, log_gradient, log_ratio, near_linear, shaping_strip, term_weights, value
+from hqmodel.field import (
+    Terms,
+    curvature,
+    gradient,
+    log_gradient,
+    log_ratio,
+    near_linear,
+    near_linear_gradient,
+    near_linear_single,
+    shaping_strip,
+    term_weights,
+    value,
+)
 from hqmodel.model import Group, Scene, Shape, Strip
 
 from ..cases import case
@@ -83,6 +96,28 @@ def test_what_is_not_there_has_no_field() -> None:
 def test_near_linear_keeps_the_sign(ratio: float, name: str) -> None:
     terms = Terms.of(case(name).scene)
     assert np.sign(near_linear(terms, np.array(ratio))) == np.sign(ratio) or abs(ratio) < 1e-12
+
+
+def blend(gamma: float, **changes: Any) -> Scene:
+    """Two shapes that add where they overlap, so that L exceeds what either comes to."""
+    strips = tuple(Strip(normal=n, gamma=gamma) for n in ((1, 0, 0), (0, 1, 0), (0, 0, 1)))
+    return Scene(shapes=(Shape(strips=strips, **changes), Shape(strips=strips, **changes)))
+
+
+@pytest.mark.parametrize("gamma", [0.5, 2.0, 60.0, 400.0])
+@pytest.mark.parametrize("changes", [{}, {"coefficient": 9.0, "hardness": 0.5}, {"constant": 4.0}, {"constant": -0.4}])
+def test_near_linear_rises_with_the_field(gamma: float, changes: dict[str, float]) -> None:
+    terms = Terms.of(blend(gamma, **changes))
+    most = float(log_ratio(terms, np.zeros(3)))
+    ratio = np.linspace(-20.0, most, 4001)
+    values = near_linear(terms, ratio)
+    assert np.all(np.diff(values) > 0)
+    np.testing.assert_allclose(near_linear_single(terms, ratio), values, rtol=1e-4, atol=1e-5)
+    points = np.random.default_rng(5).uniform(-1.2, 1.2, (200, 3))
+    here, slope = log_gradient(terms, points)
+    step = 1e-6 * np.maximum(1.0, np.abs(here))
+    rise = (near_linear(terms, here + step) - near_linear(terms, here - step)) / (2 * step)
+    np.testing.assert_allclose(near_linear_gradient(terms, points)[1], rise[:, None] * slope, rtol=1e-3, atol=1e-9)
 
 
 def test_a_value_does_not_depend_on_its_neighbours() -> None:

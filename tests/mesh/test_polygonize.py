@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from numpy.random import default_rng
 from numpy.typing import NDArray
 
-from hqmodel.field import Terms, first_hits, log_gradient, log_ratio, near_linear_gradient, region
+from hqmodel.field import Terms, first_hits, log_gradient, log_ratio, region
 from hqmodel.mesh import Mesh, MeshError, polygonize, report
 from hqmodel.model import Scene, Shape, Strip, Transform
 
@@ -30,8 +32,8 @@ def ball(away: float) -> Scene:
 
 def distance(scene: Scene, mesh: Mesh) -> NDArray[np.float64]:
     """Of each vertex from the surface, to first order."""
-    linear, slope = near_linear_gradient(Terms.of(scene), mesh.vertices)
-    result: NDArray[np.float64] = np.abs(linear) / np.linalg.norm(slope, axis=1)
+    ratio, slope = log_gradient(Terms.of(scene), mesh.vertices)
+    result: NDArray[np.float64] = np.abs(ratio) / np.linalg.norm(slope, axis=1)
     return result
 
 
@@ -58,6 +60,15 @@ def test_reference(name: str) -> None:
     assert np.max(distance(here.scene, mesh)) < 5e-5 * side
     assert mesh.normals is not None
     np.testing.assert_allclose(np.linalg.norm(mesh.normals, axis=1), 1, atol=1e-5)
+
+
+@pytest.mark.parametrize("changes", [{"coefficient": 8.0}, {"constant": 5.0}, {"mirror": ("x",), "coefficient": 3.0}])
+def test_a_thin_plate_however_far_the_field_is_above_its_level(changes: dict[str, Any]) -> None:
+    strips = [Strip(normal=n, half_width=w, gamma=60.0) for n, w in (((0.8, 0.6, 0.0), 0.04), ((-0.6, 0.8, 0.0), 1.0), (Z, 1.0))]
+    scene = Scene(shapes=(Shape(strips=tuple(strips), **changes),))
+    mesh = polygonize(scene, 96)
+    sound(mesh)
+    assert np.max(distance(scene, mesh)) < 1e-4
 
 
 @pytest.mark.parametrize("seed", range(24))
