@@ -23,8 +23,6 @@ _TOP = 709.0
 _STEEP = 1e140
 # A lone shape's H/C below which its root is no longer taken: L has no digits of it left.
 _CENTRE = 1e-12
-# Shapes that only reach the level together are taken to exceed it by this share of their hardness.
-_SOFTEST = 1.0
 
 
 class Curvature(NamedTuple):
@@ -65,7 +63,7 @@ def near_linear_gradient(terms: Terms, points: ArrayLike) -> tuple[Array, Array]
     """
     ratio, slope = log_gradient(terms, points)
     way = _Straightening.of(terms)
-    share = 1.0 - ratio / way.hard
+    share = way.share(ratio)
     held = np.maximum(share, way.least)
     with np.errstate(over="ignore"):
         slope *= ((held * (1.0 + (held - share))) ** (1.0 / way.steep - 1.0) / (way.hard * way.steep))[..., None]
@@ -99,7 +97,7 @@ def near_linear(terms: Terms, ratio: Array) -> Array:
     Same sign as L, and it rises with it everywhere; what to hand to anything that interpolates.
     """
     way = _Straightening.of(terms)
-    share = 1.0 - ratio / way.hard
+    share = way.share(ratio)
     held = np.maximum(share, way.least)
     return 1.0 - held ** (1.0 / way.steep) * way.beyond(held - share)
 
@@ -110,7 +108,7 @@ def near_linear_single(terms: Terms, ratio: Array, rounding: float = 0.0) -> NDA
     Negative, too, where the field is no further above its level than `rounding`.
     """
     way = _Straightening.of(terms)
-    share = 1.0 - ratio / way.hard
+    share = way.share(ratio)
     root = np.log(np.clip(share, way.least, 1e37).astype(np.float32))
     root /= np.float32(way.steep)
     np.exp(root, out=root)
@@ -124,8 +122,9 @@ def near_linear_single(terms: Terms, ratio: Array, rounding: float = 0.0) -> NDA
 class _Straightening(NamedTuple):
     """How L becomes nearly linear: by the root `steep`, the largest exponent, of 1 - L/hard, for a lone shape H/C.
 
-    `hard` is the most that L comes to where only one shape adds. Where several do, or a hyperbolic one, it may be more: from the
-    share `least` on, it goes on as the root of what L is beyond that, with the slope that it has there.
+    `hard` is the most that L comes to where only one shape adds, or, if that is less, what it does in a shape as high as its
+    level. Where several add, or a hyperbolic one, L may be more: from the share `least` on, it goes on as the root of what L is
+    beyond that, with the slope that it has there.
     """
 
     hard: float
@@ -138,9 +137,13 @@ class _Straightening(NamedTuple):
         adds = terms.positive
         hardness = float(np.max(terms.hardness[adds], initial=1e-300))
         top = np.max(terms.log_coefficient[adds] + terms.hardness[adds] * terms.constant[adds], initial=-np.inf)
-        hard = max(float(top) - (np.log(terms.level) if terms.level > 0 else 0.0), _SOFTEST * hardness)
+        hard = max(float(top) - (np.log(terms.level) if terms.level > 0 else 0.0), hardness)
         steep = float(np.max(terms.outer, initial=1.0))
         return cls(hard, steep, 1 / (2 + steep) if len(terms) > 1 or terms.hyperbolic else _CENTRE)
+
+    def share(self, ratio: Array) -> Array:
+        """H/C of a lone shape, from L: 1 on the surface."""
+        return np.clip(1.0 - ratio / self.hard, -HUGE, HUGE)
 
     def beyond(self, excess: Array) -> Array:
         """What the root of the least share is to be multiplied by where the share is less by an `excess`."""
