@@ -6,21 +6,27 @@ import threading
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from io import BytesIO
+from typing import TYPE_CHECKING
 
+from hqmodel.field import Terms
 from hqmodel.model import Scene
 
 from .asks import ExportSettings
+
+if TYPE_CHECKING:
+    from hqmodel.mesh import Bending
 
 Kind = tuple[str, bool, bool]
 
 
 @dataclass(frozen=True)
 class Coarse:
-    """What the coarse mesh came to: triangles, bytes in the format, and its error as a share of its longest side."""
+    """What the coarse mesh came to: triangles, bytes in the format, error as a share of its longest side, and how it bends."""
 
     faces: int
     size: int
     error: float
+    bending: Bending
 
 
 class Forecast:
@@ -40,7 +46,9 @@ class Forecast:
                 self._busy.start()
             return ""
         coarse = self._known[kind]
-        return "" if coarse is None else _told(coarse, settings)
+        if coarse is None:
+            return ""
+        return _told(coarse, settings) if settings.tolerance is None else _told_within(coarse, settings, settings.tolerance)
 
     def wait(self) -> None:
         """Until what is being worked out is known."""
@@ -53,11 +61,12 @@ class Forecast:
         suffix, colors, normals = kind
         try:
             body = mesh.polygonize(self._scene, mesh.COARSE)
-            longest = float((body.vertices.max(axis=0) - body.vertices.min(axis=0)).max())
+            bending = mesh.Bending.of(Terms.of(self._scene), body)
             shaded = replace(body, colors=body.colors if colors else None, normals=body.normals if normals else None)
             stream = BytesIO()
             mesh.write(mesh.fitted(shaded, suffix), stream, suffix)
-            self._known[kind] = Coarse(len(body.faces), len(stream.getvalue()), (body.surface_error or 0.0) / longest)
+            error = (body.surface_error or 0.0) / bending.side
+            self._known[kind] = Coarse(len(body.faces), len(stream.getvalue()), error, bending)
         except mesh.MeshError:
             self._known[kind] = None  # the export itself will say why
         finally:
@@ -74,6 +83,16 @@ def _told(coarse: Coarse, settings: ExportSettings) -> str:
     error = coarse.error * coarse.faces / faces
     lack = mesh.lack_of_room(coarse.faces, settings.resolution, settings.target_faces is not None)
     return lack or f"about {_short(faces)} triangles, {_short(size)}B, within {error:.2g} of the longest side"
+
+
+def _told_within(coarse: Coarse, settings: ExportSettings, tolerance: float) -> str:
+    """How many triangles that takes is less sure than how many a resolution gives; but there are no more than that."""
+    from hqmodel import mesh
+
+    share = tolerance / (settings.size or coarse.bending.side)
+    faces = min(coarse.bending.faces(share), mesh.expected_faces(coarse.faces, coarse.bending.cells(share)))
+    size = coarse.size / coarse.faces * faces
+    return f"perhaps {_short(faces)} triangles, {_short(size)}B: an estimate, by how the body bends"
 
 
 def _short(number: float) -> str:

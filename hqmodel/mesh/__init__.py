@@ -8,7 +8,7 @@ from .placing import FORMATS, METRES, SIZES, UP_AXIS, fitted, in_world, sized
 from .radial import radial_quads
 from .room import expected_faces, lack_of_room, must_have_room
 from .thin import Thin, thin_parts
-from .tolerance import COARSE, finer
+from .tolerance import COARSE, Bending, finer
 
 __all__ = [
     "COARSE",
@@ -19,6 +19,7 @@ __all__ = [
     "SIZES",
     "UP_AXIS",
     "USUAL_RESOLUTION",
+    "Bending",
     "Mesh",
     "MeshError",
     "Progress",

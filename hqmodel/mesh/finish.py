@@ -19,7 +19,8 @@ from .measure import QUANTUM, furthest, largest_distance
 from .mesh import Array, Mesh, Triangles, reflected, slices
 from .refine import to_surface
 from .shade import clothed, colored, off_surface, on_caps, with_caps
-from .tolerance import Surface, adapted
+from .surface import Surface
+from .tolerance import adapted
 from .weld import Weld
 
 

@@ -52,11 +52,11 @@ def largest_distance(terms: Terms, vertices: Array, faces: Triangles, stride: fl
     away = lengths(arrived - middles)
     lost = np.flatnonzero(last > _LOST * stride)
     across = unit(crosses(corners[lost, 1] - corners[lost, 0], corners[lost, 2] - corners[lost, 0]))
-    away[lost] = np.minimum(away[lost], _along(terms, middles[lost], across, stride))
+    away[lost] = np.minimum(away[lost], along(terms, middles[lost], across, stride))
     return float(np.max(away))
 
 
-def _along(terms: Terms, points: Array, normals: Array, stride: float) -> Array:
+def along(terms: Terms, points: Array, normals: Array, stride: float) -> Array:
     """How far the surface is from points (n, 3) along their normals (n, 3), one way or the other; inf if beyond four strides."""
     inside = log_ratio(terms, points) > 0
 

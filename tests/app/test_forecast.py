@@ -13,6 +13,8 @@ from hqmodel.app.forecast import Forecast
 from hqmodel.edit import new_scene
 from hqmodel.model import Scene
 
+from ..gpu.scenes import solid
+
 UNITS = {"": 1.0, "k": 1e3, "M": 1e6, "G": 1e9}
 
 
@@ -43,6 +45,21 @@ def test_a_reduced_mesh_has_what_it_is_reduced_to(tmp_path: Path) -> None:
     forecast.told(settings)
     forecast.wait()
     assert numbers(forecast.told(settings))[0] == 2000
+
+
+@pytest.mark.parametrize(("gamma", "share"), [(2.0, 5e-3), (20.0, 5e-3)])
+def test_what_a_tolerance_takes_is_estimated(gamma: float, share: float, tmp_path: Path) -> None:
+    scene = solid(gamma)
+    settings = ExportSettings(tmp_path / "body.stl", tolerance=50 * share, size=50.0)
+    forecast = Forecast(scene)
+    forecast.told(settings)
+    forecast.wait()
+    told = re.fullmatch(r"perhaps ([\d.e+]+) (\w?) ?triangles, ([\d.e+]+) (\w?)B: an estimate, .*", forecast.told(settings))
+    assert told is not None
+    faces, size = float(told[1]) * UNITS[told[2]], float(told[3]) * UNITS[told[4]]
+    body = mesh.polygonize(scene, tolerance=mesh.in_world(scene, 50 * share, 50.0), shading=False)
+    assert len(body.faces) / 2 < faces < 2 * len(body.faces)
+    assert size == pytest.approx(50 * faces, rel=0.1), "an STL has 50 bytes a triangle"
 
 
 def test_what_finds_no_room_in_memory_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

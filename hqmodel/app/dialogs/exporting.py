@@ -67,7 +67,7 @@ def draw(dialog: Dialog) -> list[Intent]:
     if problem:
         imgui.text_colored(ERROR, problem)
     else:
-        imgui.text_disabled((dialog.told(settings) if settings.method == "cubes" and not adaptive else "") or " ")
+        imgui.text_disabled((dialog.told(settings) if settings.method == "cubes" else "") or " ")
     pressed = buttons(["Export", "Cancel"], enabled=not problem)
     changed: list[Intent] = [] if settings == dialog.settings else [Adjust(replace(dialog, settings=settings))]
     if browsing:
