@@ -20,6 +20,8 @@ from .stars import Bools, Near
 STEPS = 6
 # None follows one that is shorter than these shares of the point's way and of a cell.
 _FIRM, _EXACT = 1e-3, 1e-9
+# Distances to first order that are below this share of what matters are near enough.
+_SURE = 0.5
 # The fewest and the most parts that a face's sides are divided in to be measured: their middles are looked at in any case.
 _COARSEST, _FINEST = 4, 100
 _AT_ONCE = 1 << 15
@@ -57,10 +59,9 @@ class Surface:
 
     def near(self, most: float) -> Near:
         """Tells which triangles, by their corners (n, 3) each, lie about within a distance."""
-        roughly = not self.crested  # where slopes are infinite, distances to first order are nothing
 
         def near(a: Array, b: Array, c: Array) -> Bools:
-            return self._measured(np.stack([a, b, c]), _SPOTS, inf, roughly) <= most
+            return self._measured(np.stack([a, b, c]), _SPOTS, inf) <= most
 
         return near
 
@@ -68,6 +69,8 @@ class Surface:
         """The points (n, 3) moved onto the surface, held coordinates, (n, 3), kept: by as many steps as each takes."""
         moved, going = points.copy(), np.arange(len(points))
         for _ in range(STEPS):
+            if not going.size:
+                break
             moved[going], last = to_surface(self.terms, moved[going], self.cell, 1, held[going])
             going = going[last > np.maximum(_FIRM * lengths(moved[going] - points[going]), _EXACT * self.cell)]
         return moved
@@ -103,10 +106,11 @@ class Surface:
                 self.still()
                 yield some, lattice
 
-    def _measured(self, corners: Array, lattice: Array, most: float, roughly: bool = False) -> Array:
+    def _measured(self, corners: Array, lattice: Array, most: float) -> Array:
         """How far triangles, by their corners (3, n, 3), are off at most at a lattice's points, (n,); within caps they aren't.
 
-        `roughly`: to first order; else along the gradient, or, where that is more than `most`, along the triangle's normal.
+        To first order, where that is far less than `most` and slopes are finite; else along the gradient, or, where that is
+        more, along the triangle's normal.
         """
         flat = np.stack([self.flat(points) for points in corners])
         capped = np.any(_common(flat) & (flat[0] <= self.cuts), axis=1)
@@ -114,7 +118,10 @@ class Surface:
         sides, of_side = np.unique(lattice > 0, axis=0, return_inverse=True)
         held = np.stack([_common(flat[side]) for side in sides])[of_side.ravel()]
         points, held = points[:, ~capped].reshape(-1, 3), held[:, ~capped].reshape(-1, 3)
-        distance = self._first_order(points, held) if roughly else lengths(self.nearest(points, held) - points)
+        linear, slope = near_linear_gradient(self.terms, points)
+        distance = np.abs(linear) / np.maximum(lengths(np.where(held, 0.0, slope)), 1e-200)
+        unsure = np.flatnonzero((distance > _SURE * most) | self.crested)
+        distance[unsure] = lengths(self.nearest(points[unsure], held[unsure]) - points[unsure])
         far = np.flatnonzero(distance > most)
         if far.size:
             a, b, c = (corner[~capped][far % np.count_nonzero(~capped)] for corner in corners)
@@ -123,10 +130,6 @@ class Surface:
         result = np.zeros(corners.shape[1])
         result[~capped] = np.max(distance.reshape(len(lattice), -1), axis=0)
         return result
-
-    def _first_order(self, points: Array, held: Bools) -> Array:
-        linear, slope = near_linear_gradient(self.terms, points)
-        return np.abs(linear) / np.maximum(lengths(np.where(held, 0.0, slope)), 1e-200)
 
 
 def _common(planes: Indices) -> Bools:

@@ -137,7 +137,7 @@ def _reduced(
     for _ in range(_TRIES):
         fewer = simplified(vertices, faces, 0, held, mirrored, surface.nearest, most, near, surface.still)
         result = _refined(surface, *fewer, surface.off(*fewer, _AT_LAST * tolerance), _AT_LAST * tolerance)
-        if np.max(result[2], initial=0.0) <= allowed:
+        if not np.any(result[2] > allowed):
             return result
         held[surface.beside(vertices, result[0], result[1][result[2] > tolerance], room)] = True
         most, room = most / 2, 2 * room
