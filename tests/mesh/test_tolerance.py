@@ -116,6 +116,13 @@ def test_random_scenes(seed: int) -> None:
     assert len(mesh.faces) < 0.3 * len(coarse.faces)
 
 
+def test_a_rim_that_is_sharper_than_the_cells() -> None:
+    scene = case("thin_plate").scene
+    mesh = polygonize(scene, 72, tolerance=5e-4)
+    as_promised(scene, mesh, 5e-4)
+    assert len(mesh.faces) < 0.25 * len(polygonize(scene, 72, shading=False).faces)
+
+
 def test_a_cut_body() -> None:
     pipe = Scene(shapes=(Shape(strips=(Strip(normal=X), Strip(normal=Y))),), bounds=((-2, -2, -1), (2, 2, 1.5)))
     mesh = polygonize(pipe, 48, tolerance=0.01)
