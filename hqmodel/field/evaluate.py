@@ -62,12 +62,10 @@ def near_linear_gradient(terms: Terms, points: ArrayLike) -> tuple[Array, Array]
     Their quotient is a Newton step that neither creeps from outside nor leaps from inside.
     """
     ratio, slope = log_gradient(terms, points)
-    way = _Straightening.of(terms)
-    share = way.share(ratio)
-    held = np.maximum(share, way.least)
+    values, rate = _straightened(terms, ratio)
     with np.errstate(over="ignore"):
-        slope *= ((held * (1.0 + (held - share))) ** (1.0 / way.steep - 1.0) / (way.hard * way.steep))[..., None]
-    return near_linear(terms, ratio), np.clip(slope, -HUGE, HUGE, out=slope)
+        slope *= rate[..., None]
+    return values, np.clip(slope, -HUGE, HUGE, out=slope)
 
 
 def curvature(terms: Terms, points: ArrayLike) -> Curvature:
@@ -96,10 +94,7 @@ def near_linear(terms: Terms, ratio: Array) -> Array:
 
     Same sign as L, and it rises with it everywhere; what to hand to anything that interpolates.
     """
-    way = _Straightening.of(terms)
-    share = way.share(ratio)
-    held = np.maximum(share, way.least)
-    return 1.0 - held ** (1.0 / way.steep) * way.beyond(held - share)
+    return _straightened(terms, ratio)[0]
 
 
 def near_linear_single(terms: Terms, ratio: Array, rounding: float = 0.0) -> NDArray[np.float32]:
@@ -108,15 +103,28 @@ def near_linear_single(terms: Terms, ratio: Array, rounding: float = 0.0) -> NDA
     Negative, too, where the field is no further above its level than `rounding`.
     """
     way = _Straightening.of(terms)
-    share = way.share(ratio)
+    share = 1.0 - ratio / way.hard
     root = np.log(np.clip(share, way.least, 1e37).astype(np.float32))
     root /= np.float32(way.steep)
     np.exp(root, out=root)
     deep = share < way.least
     if deep.any():
-        root[deep] *= way.beyond(way.least - share[deep])
+        root[deep] *= way.beyond(way.further(share[deep]))
     size = np.maximum(np.abs(1.0 - root, out=root), np.float32(1e-37), out=root)
     return np.where(ratio > rounding * way.hard * way.steep, size, -size)
+
+
+def _straightened(terms: Terms, ratio: Array) -> tuple[Array, Array]:
+    """The near-linear field (...,) and how fast it rises with L."""
+    way = _Straightening.of(terms)
+    share = np.clip(1.0 - ratio / way.hard, -HUGE, HUGE)
+    held = np.maximum(share, way.least)
+    root = held ** (1.0 / way.steep)
+    rate = root / (held * (way.hard * way.steep))
+    if np.any(share < way.least):
+        grown = way.further(share)
+        return 1.0 - root * way.beyond(grown), rate * grown ** (1.0 - way.steep)
+    return 1.0 - root, rate
 
 
 class _Straightening(NamedTuple):
@@ -133,7 +141,8 @@ class _Straightening(NamedTuple):
 
     @classmethod
     def of(cls, terms: Terms) -> _Straightening:
-        """For these terms."""
+        """For these terms: where some have been left out, as for all."""
+        terms = terms.chosen_from or terms
         adds = terms.positive
         hardness = float(np.max(terms.hardness[adds], initial=1e-300))
         top = np.max(terms.log_coefficient[adds] + terms.hardness[adds] * terms.constant[adds], initial=-np.inf)
@@ -141,13 +150,13 @@ class _Straightening(NamedTuple):
         steep = float(np.max(terms.outer, initial=1.0))
         return cls(hard, steep, 1 / (2 + steep) if len(terms) > 1 or terms.hyperbolic else _CENTRE)
 
-    def share(self, ratio: Array) -> Array:
-        """H/C of a lone shape, from L: 1 on the surface."""
-        return np.clip(1.0 - ratio / self.hard, -HUGE, HUGE)
+    def further(self, share: Array) -> Array:
+        """The root of what L is beyond the least share; 1 before that."""
+        return np.maximum(1.0 + (self.least - share), 1.0) ** (1.0 / self.steep)
 
-    def beyond(self, excess: Array) -> Array:
-        """What the root of the least share is to be multiplied by where the share is less by an `excess`."""
-        return 1.0 - ((1.0 + excess) ** (1.0 / self.steep) - 1.0) / self.least
+    def beyond(self, further: Array) -> Array:
+        """What the root of the least share is to be multiplied by."""
+        return 1.0 - (further - 1.0) / self.least
 
 
 def exponents(terms: Terms, h_sums: Array) -> Array:

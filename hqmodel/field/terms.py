@@ -31,6 +31,8 @@ class Terms:
 
     S strips are sorted by group and G groups by term (a lone strip is a group of its own); a mirrored shape gives one term for
     each image. h_a(x) = normal[a] . x + offset[a] in world coordinates, slice and half-width included.
+
+    `chosen_from` are the terms that these are some of; None where they are all.
     """
 
     normal: Array  # (S, 3)
@@ -46,6 +48,7 @@ class Terms:
     strip_source: Indices  # (S, 2) the shape and the strip in it
     term_source: Indices  # (K,) the shape
     level: float
+    chosen_from: Terms | None = None
 
     @classmethod
     def of(cls, scene: Scene) -> Self:
@@ -114,6 +117,7 @@ class Terms:
             constant=self.constant[chosen],
             strip_source=self.strip_source[strips],
             term_source=self.term_source[chosen],
+            chosen_from=self.chosen_from or self,
         )
 
 

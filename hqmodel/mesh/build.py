@@ -176,7 +176,7 @@ def _piece(scene: Scene, terms: Terms, balance: Balance, stopped: threading.Even
             raise CancelledError  # nobody looks at the result any more
 
     grid, local = balance.grid, relevant(terms, balance.grid, blocks, BLOCK)
-    patch = extract(blocks, Sampling(local, grid, still))
+    patch = extract(blocks, Sampling(terms, local, grid, still))
     still()
     if patch is None or not len(patch.faces):
         return None

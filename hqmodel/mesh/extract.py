@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from .cubes import AMBIGUOUS, CORNERS, EDGES, FACES, triangles
 from .cull import Blocks
-from .grid import BLOCK, Grid
+from .grid import ALONG, BLOCK, Grid
 from .mesh import Array, Triangles, slices
-from .sampling import Indices, Numbers, Samples, Sampling
+from .sampling import CUBE, Indices, Numbers, Samples, Sampling
 from .sheets import moves
 
 AT_NODE = 3
@@ -33,8 +33,6 @@ _ALL = _lattice(BLOCK + 1)
 _STRIDES = np.array([(BLOCK + 1) ** 2, BLOCK + 1, 1])
 _EDGE_AXIS = np.array([axis for _, axis in EDGES])
 _EDGE_NODE = CORNERS[[corner for corner, _ in EDGES]] @ _STRIDES
-# What is added to a block's number for the next one along each axis.
-_STEP = np.array([1 << 40, 1 << 20, 1])
 # Nodes sampled at once: what stays in a processor's cache.
 _CHUNK = 1 << 15
 
@@ -100,9 +98,9 @@ class _Nodes:
     """
 
     def __init__(self, blocks: Blocks) -> None:
-        numbers = blocks.astype(np.int64) // BLOCK @ _STEP
-        every, which = np.unique(numbers[:, None] + CORNERS @ _STEP, return_inverse=True)
-        self._first = every // _STEP[:, None] % _STEP[1] * BLOCK
+        numbers = blocks.astype(np.int64) // BLOCK @ ALONG
+        every, which = np.unique(numbers[:, None] + CORNERS @ ALONG, return_inverse=True)
+        self._first = every // ALONG[:, None] % ALONG[1] * BLOCK
         self._beside = which.reshape(-1, 8)  # each block's place among all, and those of its neighbours on the far sides
         own = _ALL % BLOCK @ np.array([BLOCK**2, BLOCK, 1])
         self.of_block = np.take(self._beside.astype(np.int32), _ALL // BLOCK @ np.array([4, 2, 1]), axis=1)
@@ -160,6 +158,9 @@ class _Nodes:
         used = np.zeros(len(self), dtype=bool)
         used[self.of_block] = True
         places = np.flatnonzero(used)
+        if sampling.by_cube:
+            cube = ALONG @ (self._first // CUBE)
+            places = places[np.argsort(cube.take(places // len(_OWN)), kind="stable")]
         result = np.zeros(len(self), dtype=np.float32)
         for start in range(0, len(places), _CHUNK):
             here = places[start : start + _CHUNK]

@@ -15,6 +15,8 @@ from hqmodel.field import Region
 from .mesh import Array
 
 BLOCK = 4
+# What is added to the number that a cube of cells has for the next one along each axis.
+ALONG = np.array([1 << 40, 1 << 20, 1])
 # However thin a body is along an axis, it gets this many cells across it.
 _FEWEST_CELLS = 8
 

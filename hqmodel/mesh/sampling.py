@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,7 +11,8 @@ from numpy.typing import NDArray
 
 from hqmodel.field import Terms, log_ratio, near_linear_gradient, near_linear_single, reaches
 
-from .grid import Grid
+from .cull import relevant
+from .grid import ALONG, Grid
 from .mesh import Array, lengths
 
 Samples = NDArray[np.float32]
@@ -18,6 +20,8 @@ Numbers = NDArray[np.int64]
 Indices = NDArray[np.intp]
 # Samples this near to the level are rounding: fields that stay at their level throughout (an octahedron's slices) have no body.
 _ROUNDING = 1e-13
+# Cells along a side of the cubes by which terms are left out: whole blocks.
+CUBE = 64
 # What a strip bounds may be thinner than a cell somewhere when it is thinner than so many at most.
 _THIN = 4.0
 # How far beside a thin part nodes belong to it, in cells.
@@ -47,10 +51,21 @@ class ThinStrip(NamedTuple):
 
 
 class Sampling:
-    """A scene's terms on a grid. `still` is called before each look; whatever it raises ends the work."""
+    """A scene's `terms` on a grid, and those that matter `here`, where it is looked at. `still` is called before each look;
+    whatever it raises ends the work.
 
-    def __init__(self, terms: Terms, grid: Grid, still: Callable[[], None]) -> None:
-        self._terms, self._grid, self._still = terms, grid, still
+    What a node is told is the same to the last bit whatever else is looked at: terms that don't matter are left out by the cube
+    of cells that it lies in.
+    """
+
+    def __init__(self, terms: Terms, here: Terms, grid: Grid, still: Callable[[], None]) -> None:
+        self._terms, self._here, self._grid, self._still = terms, here, grid, still
+        self._within = cache(self._relevant)
+
+    @property
+    def by_cube(self) -> bool:
+        """Whether there are terms to leave out."""
+        return len(self._terms) > 1
 
     @property
     def convex(self) -> bool:
@@ -65,23 +80,41 @@ class Sampling:
     def at(self, nodes: NDArray[Any]) -> Samples:
         """The near-linear field at nodes (n, 3), whose numbers may have fractions: never 0, and -inf beyond a cut."""
         self._still()
-        values = near_linear_single(self._terms, log_ratio(self._terms, self._grid.points(nodes)), _ROUNDING)
+        values = np.empty(len(nodes), dtype=np.float32)
+        for which, terms in self._parts(nodes):
+            values[which] = near_linear_single(terms, log_ratio(terms, self._grid.points(nodes[which])), _ROUNDING)
         for i, outside in enumerate(self._grid.outside):
             if outside.any():
                 values[outside.take(nodes[:, i].astype(np.intp), mode="clip")] = -np.inf
         return values
 
-    def along(self, nodes: Array, axis: Indices) -> tuple[Array, Array, Array]:
-        """The same at nodes (n, 3) in double precision, what it gains by a cell along an axis (n,), and the most that it gains by
-        a cell along any line. Nothing is cut."""
+    def along(self, nodes: Array, axis: Indices, share: Array) -> tuple[Array, Array, Array]:
+        """The same, in double precision, at shares (n,) of the edges from nodes (n, 3) along an axis (n,), what it gains by a
+        cell along it, (n,), and the most that it gains by a cell along any line. Nothing is cut."""
         self._still()
-        values, slopes = near_linear_gradient(self._terms, self._grid.points(nodes))
-        slopes = slopes * self._grid.steps
+        values, slopes = np.empty(len(nodes)), np.empty((len(nodes), 3))
+        for which, terms in self._parts(nodes):
+            points = nodes[which] + share[which, None] * np.eye(3)[axis[which]]
+            values[which], slopes[which] = near_linear_gradient(terms, self._grid.points(points))
+        slopes *= self._grid.steps
         return values, slopes[np.arange(len(axis)), axis], lengths(slopes)
+
+    def _parts(self, nodes: NDArray[Any]) -> Iterator[tuple[Indices | slice, Terms]]:
+        """The nodes (n, 3) that lie in a cube together, and the terms that matter in it."""
+        if not self.by_cube or not len(nodes):
+            yield slice(None), self._terms
+            return
+        cube = (nodes.astype(np.int64) // CUBE) @ ALONG
+        order = np.argsort(cube, kind="stable")
+        for which in np.split(order, np.flatnonzero(np.diff(cube[order])) + 1):
+            yield which, self._within(int(cube[which[0]]))
+
+    def _relevant(self, cube: int) -> Terms:
+        return relevant(self._terms, self._grid, (cube // ALONG % ALONG[1])[None] * CUBE, CUBE)
 
     def thin_strips(self) -> Iterator[ThinStrip]:
         """Strips that bound something of a few cells' thickness, or carve it."""
-        terms, steps = self._terms, self._grid.steps
+        terms, steps = self._here, self._grid.steps
         gradient, reach = terms.normal * steps, reaches(terms, 0.0)
         constant = terms.offset + terms.normal @ self._grid.points(np.ones((1, 3), dtype=np.int64))[0] - np.sum(gradient, axis=1)
         for strip in np.flatnonzero((reach > 0) & (2 * reach < _THIN * np.max(np.abs(gradient), axis=1))).tolist():

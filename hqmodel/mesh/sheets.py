@@ -169,9 +169,7 @@ def _peaks(node: Array, axis: Indices, outside: NDArray[np.bool_], sampling: Sam
     side = np.where(outside, 1.0, -1.0)
 
     def look(which: Indices, share: Array) -> Array:
-        at = node[which]
-        at[np.arange(len(which)), axis[which]] += share
-        value, slope, steepest = sampling.along(at, axis[which])
+        value, slope, steepest = sampling.along(node[which], axis[which], share)
         return np.stack([share, side[which] * value, side[which] * slope, steepest])
 
     which = np.arange(count)
