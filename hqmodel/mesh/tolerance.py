@@ -30,8 +30,8 @@ _ENOUGH = 256
 _SMOOTH = 0.75
 # Vertices that are further than this share of the side from the surface are within caps.
 _THERE = 2e-4
-# Triangles' largest size, as a share of the side, and how many there are for one of the integral: of 46 meshes of 26 shapes 29 had
-# that many within a factor of 1.25 and 39 within 1.5; where crests or tips keep a mesh from being reduced there are many more.
+# Triangles' largest size, as a share of the side, and how many there are for one of the integral: of 46 meshes of 26 shapes 29
+# had that many within a factor of 1.25 and 39 within 1.5; where crests or tips keep a mesh from being reduced there are more.
 _LARGEST, _EACH = 0.5, 0.67
 # How many times finer to look again where a tolerance was not met, and how much finer than proportion would have it.
 _AGAIN, _FINER = (1.4, 4.0), 1.1
