@@ -102,6 +102,13 @@ class Bodies:
         moved = replace(self, normal=self.normal + normal.reshape(-1, 3), offset=self.offset + offset)
         return moved._pressed(gamma, hardness)
 
+    def numbers(self, chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """(size,) which numbers of a step move these (K,) of framed bodies."""
+        strips = chosen[self.owner]
+        further = strips[self._frames()[1]]
+        hardness = chosen if len(self) > 1 else chosen[:0]
+        return np.concatenate([np.repeat(chosen, 9), np.repeat(further, 3), further, strips, hardness])
+
     def held(self, step: Array) -> NDArray[np.bool_]:
         """(size,) which numbers of a step would only lead out of their range."""
         count, bodies = len(self.gamma), len(self)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .bodies import FLIP, Array, Bodies
+from .bodies import FLIP, Array, Bodies, Indices
 
 # |h| nearer to 0 than this is held there: an exponent below 1 has an infinite slope at 0.
 _NEAR = 1e-7
@@ -48,10 +48,11 @@ class Measured:
         self._foot = foot
         self.distance = np.minimum(np.linalg.norm(points - foot, axis=1), FARTHEST) * sense
 
-    def rows(self) -> Array:
-        """The derivatives (`bodies.size`, N) by the numbers that `Bodies.moved` takes."""
-        look = _look(self._bodies.images(), self._foot)
-        rows = _folded(self._bodies, look.rows(self._foot, len(self._bodies) > 1))
+    def rows(self, chosen: Indices | slice = slice(None)) -> Array:
+        """The derivatives (`bodies.size`, N) by the numbers that `Bodies.moved` takes, of all or some of the points."""
+        foot = self._foot[chosen]
+        look = _look(self._bodies.images(), foot)
+        rows = _folded(self._bodies, look.rows(foot, len(self._bodies) > 1))
         rows /= -look.length
         return self._bodies.reduced(rows)
 

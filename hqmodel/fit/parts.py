@@ -1,40 +1,55 @@
-"""Several bodies: the worst one is split, or one is added, or one carves, whichever gains most; then all are refined together."""
+"""Several bodies: one is split, or one is added, or one carves, whichever gains most; then all are refined together."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.cluster.vq import kmeans2
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from .bodies import FLIP, Array, Bodies, joined
 from .cloud import Cloud
 from .distance import distances, strengths
-from .lone import MIDDLE, WORTH, Step, lifted, with_one_more
+from .lone import WORTH, Step, lifted, with_one_more
 from .occupancy import sides
 from .solve import Evidence, Noise, Solution, solved
 from .starts import held, principal_axes
 from .told import Told
 
 # Surface points that parts are tried on and refined on, and points on either side of it.
-_TRIED, _REFINED, _SIDES = 1500, 4000, 1500
+_TRIED, _REFINED, _SIDES = 2000, 6000, 1000
 # How far on its wrong side a point must be to count, and what it costs then.
 _SOFT, _DOUBT = 0.005, 2.0
 # Points without company being left out, few outliers are left: the rest has to be explained.
-_OUTLIERS = 0.03
+_OUTLIERS = 0.01
 # What new bodies begin with.
 _HARDNESS, _GAMMA = 5.0, 2.5
 # How far a body may grow in width.
 _ROOM = 1.5
-# Bodies that are tried to be split each time, and the fewest points that make a body.
-_SPLIT, _FEWEST = 3, 12
-# Partitions that are tried at first.
-_BEGINNINGS = 8
-# Points this many times further apart than neighbours are no longer of one group.
-_GROUPED = 4.0
+# Bodies that are tried to be split each time, groups of points that are tried to be added, and the fewest that make a body.
+_SPLIT, _ADDED, _FEWEST = 8, 3, 10
+# Points this many times further apart than neighbours are no longer of one group; how far out they all are, in the deviation's
+# multiples and in any case; and the least share of all points that is carved for: smaller dents are left to the bodies that add.
+_GROUPED, _LEVELS, _OUT, _HOLLOW = 4.0, (1.0, 2.0, 4.0), 0.004, 0.05
+# Steps of changed bodies alone, the changes that are tried on with all bodies then, steps of these, and of what is kept.
+_ALONE, _BEST, _TOGETHER, _SETTLED = 10, 3, 6, 20
+# How far around its points a changed body is looked at: so many times as far as they reach, and a little.
+_AROUND, _BESIDE = 1.3, 0.03
+# Exchanging parts goes on while it lowers the criterion by so much.
+_EXCHANGED = 20.0
+
+
+@dataclass(frozen=True, eq=False)
+class _Way:
+    """Bodies changed: some new ones, made of points (N, 3), take the place of others."""
+
+    what: str
+    kept: list[Bodies]
+    fresh: list[Bodies]
+    points: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,9 +64,30 @@ class _Task:
     floor: float
     tell: Told
 
+    @cached_property
+    def small(self) -> Evidence:
+        """What parts are tried on."""
+        return self.evidence(_TRIED)
+
     def solved(self, bodies: Bodies, evidence: Evidence, rounds: int, noise: Noise | None = None) -> Solution:
         """The bodies moved, telling at every step."""
         return solved(bodies, evidence, self.floor, rounds, noise, self.tell.again)
+
+    def settled(self, best: Solution, bodies: Bodies, moving: NDArray[np.bool_], points: Array) -> Solution:
+        """Bodies, some (K,) of them moved by what is known around points (N, 3), and what they cost by all that is."""
+        middle = points.mean(axis=0)
+        reach = float(np.linalg.norm(points - middle, axis=1).max())
+        near = self.small.near(middle, _AROUND * reach + _BESIDE)
+        bodies = solved(bodies, near, best.noise.sigma, _ALONE, None, self.tell.again, bodies.numbers(moving)).bodies
+        miss = self.small.misses(self.small.measured(bodies).distance)
+        return Solution(bodies, best.noise, self.small.cost(best.noise, miss))
+
+    def together(self, best: Solution, rounds: int) -> Solution:
+        """All bodies moved."""
+        return self.solved(best.bodies, self.small, rounds, best.noise)
+
+    def criterion(self, solution: Solution) -> float:
+        return solution.criterion(len(self.small.surface), _TRIED)
 
     def sample(self, count: int) -> Cloud:
         """Some of the cloud's trusted points; of a symmetric one every other is the image of the one before."""
@@ -76,25 +112,24 @@ def several_bodies(
     """At most so many hyperquadrics, of at most so many strips each, that together fit the cloud; and how they came about.
 
     A part or a strip stays when it lowers Schwarz's criterion on a sample of the points. If `symmetric`, the cloud is so in
-    x = 0, and bodies beside that plane come in pairs.
+    x = 0, and bodies beside that plane come in pairs, each of which counts as one.
     """
     cloud = cloud.only(cloud.trusted)
     outside, inside = sides(cloud.points, _SIDES // (2 if symmetric else 1), rng)
     task = _Task(cloud, outside, inside, symmetric, strips, floor, tell)
-    small = task.evidence(_TRIED)
-    best = _begun(task, small, parts, rng)
-    steps = [Step(f"{_count(best.bodies)} parts to begin with", 0.0)]
-    best = _with_strips(task, small, _changed(task, small, best, parts, steps), steps)
+    steps = [Step("1 part to begin with", 0.0)]
+    best = task.solved(_body(task, _folded(task, task.sample(_TRIED).points)), task.small, 20)
+    best = _with_strips(task, _exchanged(task, _grown(task, best, parts, steps), steps), steps)
     tell(0.9, "Refining")
     return task.solved(best.bodies, task.evidence(_REFINED), 30, best.noise), steps
 
 
-def _changed(task: _Task, small: Evidence, best: Solution, parts: int, steps: list[Step]) -> Solution:
-    """With parts split, added and dropped as long as it gains anything."""
-    for turn in range(2 * parts):
-        task.tell(0.2 + 0.22 * turn / parts, f"{_count(best.bodies)} parts")
-        trial, what = _best_way(task, small, best, parts)
-        gain = _criterion(best, small) - _criterion(trial, small)
+def _grown(task: _Task, best: Solution, parts: int, steps: list[Step]) -> Solution:
+    """With parts split and added, as many as are wanted or gain anything."""
+    for count in range(1, parts):
+        task.tell(0.45 * (count / parts) ** 2, f"{count} {'part' if count == 1 else 'parts'}")
+        trial, what = _with_one_part_more(task, best)
+        gain = task.criterion(best) - task.criterion(trial)
         if gain <= WORTH:
             break
         best = trial
@@ -102,48 +137,51 @@ def _changed(task: _Task, small: Evidence, best: Solution, parts: int, steps: li
     return best
 
 
-def _begun(task: _Task, small: Evidence, parts: int, rng: np.random.Generator) -> Solution:
-    """The best of several ways to part the points into compact groups, each a body."""
-    points = _folded(task, task.sample(_TRIED).points)
-    inside = _folded(task, task.inside)
-    found = [task.solved(_body(task, points), small, 20)]
-    for turn in range(_BEGINNINGS):
-        task.tell(0.02 + 0.18 * turn / _BEGINNINGS, "Trying partitions")
-        within = inside if turn % 2 else inside[:0]
-        groups = max(2, round(parts * (0.65 if task.symmetric else 1.0) * (1.0, 0.75, 0.5)[turn % 3]))
-        label = kmeans2(np.concatenate([points, within]), groups, minit="++", rng=rng)[1][: len(points)]
-        bodies = [_body(task, points[label == group]) for group in range(groups) if np.sum(label == group) >= _FEWEST]
-        together = joined(bodies)
-        if _count(together) <= parts:
-            found.append(task.solved(together, small, 20))
-    return min(found, key=lambda solution: _criterion(solution, small))
+def _exchanged(task: _Task, best: Solution, steps: list[Step]) -> Solution:
+    """With the least part given up for another elsewhere, as long as that gains much."""
+    count = len(best.bodies)
+    for turn in range(count if count > 1 else 0):
+        task.tell(0.45 + 0.2 * turn / count, "Exchanging parts")
+        rest, before = _with_least_dropped(task, best)
+        trial, what = _with_one_part_more(task, rest)
+        gain = task.criterion(best) - task.criterion(trial)
+        if gain <= _EXCHANGED:
+            break
+        best = trial
+        steps.append(Step(f"{before}, {what}", gain))
+    return best
 
 
-def _best_way(task: _Task, small: Evidence, best: Solution, parts: int) -> tuple[Solution, str]:
-    """The best of the changes that leave no more than so many parts; where there are as many, the least one is given up first."""
-    base, before = best, ""
-    if _count(best.bodies) >= parts:
-        points = task.sample(_TRIED).points
-        least = int(np.argmin(np.bincount(np.argmax(strengths(best.bodies, points), axis=0), minlength=len(best.bodies))))
-        base, before = task.solved(joined(best.bodies.others(least)), small, 8), f"part {least + 1} dropped, "
-    ways = [(bodies, before + what) for what, bodies in _ways(task, base) if _count(bodies) <= parts]
-    tried = [(task.solved(bodies, small, 8), what) for bodies, what in ways] + [(base, before)]
-    tried.sort(key=lambda pair: _criterion(pair[0], small))
-    refined = [(task.solved(solution.bodies, small, 20, solution.noise), what) for solution, what in tried[:2]]
-    return min(refined, key=lambda pair: _criterion(pair[0], small))
+def _with_one_part_more(task: _Task, best: Solution) -> tuple[Solution, str]:
+    """The best of the ways to have one body more: the new ones are tried alone first, the best of them with all others."""
+    tried = []
+    for way in _ways(task, best):
+        bodies = joined([*way.kept, *way.fresh])
+        fresh = np.arange(len(bodies)) >= len(way.kept)
+        tried.append((task.settled(best, bodies, fresh, way.points), way.what))
+    tried.sort(key=lambda pair: task.criterion(pair[0]))
+    begun = [(task.together(solution, _TOGETHER), what) for solution, what in tried[:_BEST]]
+    trial, what = min(begun, key=lambda pair: task.criterion(pair[0]), default=(best, "nothing changed"))
+    return task.together(trial, _SETTLED), what
 
 
-def _count(bodies: Bodies) -> int:
-    """How many bodies there are to see."""
-    return len(bodies) + int(bodies.mirrored.sum())
+def _with_least_dropped(task: _Task, best: Solution) -> tuple[Solution, str]:
+    """Without the body whose place the others take best: those next to it move."""
+    points = task.sample(_TRIED).points
+    strength = strengths(best.bodies, points)
+    owner = np.argmax(strength, axis=0)
+    tried = []
+    for body in range(len(best.bodies)):
+        own = owner == body if np.any(owner == body) else np.ones(len(owner), dtype=bool)
+        heirs = np.argmax(np.delete(strength[:, own], body, axis=0), axis=0)
+        rest = joined(best.bodies.others(body))
+        tried.append(task.settled(best, rest, np.isin(np.arange(len(rest)), heirs), _folded(task, points[own])))
+    least = int(np.argmin([solution.cost for solution in tried]))
+    return task.together(tried[least], _TOGETHER), f"part {least + 1} dropped"
 
 
-def _criterion(solution: Solution, evidence: Evidence) -> float:
-    return solution.criterion(len(evidence.surface), MIDDLE)
-
-
-def _ways(task: _Task, best: Solution) -> list[tuple[str, Bodies]]:
-    """The bodies changed in several ways: the worst of them split, one added, one carving."""
+def _ways(task: _Task, best: Solution) -> list[_Way]:
+    """The ways to have one body more: the worst of them split, one added, one carving."""
     points = task.sample(_TRIED).points
     miss = distances(best.bodies, points)
     owner = np.argmax(strengths(best.bodies, points), axis=0)
@@ -153,11 +191,11 @@ def _ways(task: _Task, best: Solution) -> list[tuple[str, Bodies]]:
         own = owner == body
         for halves in _halves(task, points[own], miss[own]):
             fresh = [_body(task, half) for half in halves]
-            ways.append((f"part {body + 1} split", joined([*best.bodies.others(body), *fresh])))
-    for sign, what in ((1.0, "a part added"), (-1.0, "a carving part added")):
-        group = _group(task, points, sign * miss, best.noise.sigma)
-        if len(group) >= _FEWEST:
-            ways.append((what, joined([best.bodies, _body(task, group, sign)])))
+            ways.append(_Way(f"part {body + 1} split", best.bodies.others(body), fresh, np.concatenate(halves)))
+    for sign, what, fewest in ((1.0, "a part added", _FEWEST), (-1.0, "a carving part added", _HOLLOW * len(points))):
+        groups = [group for level in _LEVELS for group in _groups(task, points, sign * miss, level * best.noise.sigma)]
+        groups = list({group.tobytes(): group for group in groups if len(group) >= fewest}.values())
+        ways += [_Way(what, best.bodies.others(-1), [_body(task, group, sign)], group) for group in groups]
     return ways
 
 
@@ -168,7 +206,7 @@ def _halves(task: _Task, points: Array, miss: Array) -> list[list[Array]]:
         return []
     along = (folded - folded.mean(axis=0)) @ principal_axes(folded).T
     badly = np.abs(miss) > np.quantile(np.abs(miss), 0.75)
-    ways = {_settled(folded, first).tobytes() for first in (along[:, 0] > 0, along[:, 1] > 0, badly)}
+    ways = {_compact(folded, first).tobytes() for first in (*(along > 0).T, badly)}
     labels = [np.frombuffer(way, dtype=bool) for way in sorted(ways)]
     return [[folded[way], folded[~way]] for way in labels if _FEWEST <= np.count_nonzero(way) <= len(way) - _FEWEST]
 
@@ -178,7 +216,7 @@ def _folded(task: _Task, points: Array) -> Array:
     return points * np.where(points[:, :1] < 0, FLIP, 1.0) if task.symmetric else points
 
 
-def _settled(points: Array, label: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _compact(points: Array, label: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Two groups made compact: each point goes to the nearer centre (Lloyd)."""
     for _ in range(10):
         if label.all() or not label.any():
@@ -188,16 +226,17 @@ def _settled(points: Array, label: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return label if label[0] else ~label
 
 
-def _group(task: _Task, points: Array, away: Array, sigma: float) -> Array:
-    """The largest group of connected points (n, 3) that lie too far out."""
-    far = points[away > max(3 * sigma, 0.004)]
+def _groups(task: _Task, points: Array, away: Array, least: float) -> list[Array]:
+    """The groups of connected points (n, 3) that lie too far out, those furthest in all first."""
+    far = away > max(least, _OUT)
     if task.symmetric:
-        far = far[far[:, 0] >= 0]
-    if len(far) < _FEWEST:
-        return far
+        far &= points[:, 0] >= 0
+    if np.count_nonzero(far) < _FEWEST:
+        return []
     reach = _GROUPED * np.median(cKDTree(points).query(points, 2)[0][:, 1])
-    label = connected_components(cKDTree(far).sparse_distance_matrix(cKDTree(far), reach))[1]
-    return np.asarray(far[label == np.argmax(np.bincount(label))])
+    points, away, tree = points[far], away[far], cKDTree(points[far])
+    label = connected_components(tree.sparse_distance_matrix(tree, reach))[1]
+    return [points[label == group] for group in np.argsort(-np.bincount(label, away))[:_ADDED]]
 
 
 def _body(task: _Task, points: Array, sign: float = 1.0) -> Bodies:
@@ -214,28 +253,33 @@ def _body(task: _Task, points: Array, sign: float = 1.0) -> Bodies:
     return replace(body, hardness=chosen[0], sign=chosen[1], mirrored=chosen[2], widest=widest)
 
 
-def _with_strips(task: _Task, small: Evidence, best: Solution, steps: list[Step]) -> Solution:
-    """With strips added to the worst bodies as long as they earn their place."""
+def _with_strips(task: _Task, best: Solution, steps: list[Step]) -> Solution:
+    """With strips added to all bodies in turn, as long as they earn their place."""
     sample = task.sample(_TRIED)
-    given_up = np.zeros(len(best.bodies), dtype=bool)
-    while not given_up.all():
+    growing = list(range(len(best.bodies)))
+    while growing:
+        task.tell(0.9 - 0.25 * len(growing) / len(best.bodies), "Adding strips")
         owner = np.argmax(strengths(best.bodies, sample.points), axis=0)
-        cost = np.bincount(owner, np.minimum(np.abs(distances(best.bodies, sample.points)), 0.05), len(given_up))
-        body = int(np.argmax(np.where(given_up, -1.0, cost)))
-        count = int(np.sum(best.bodies.owner == body))
-        own = _own_side(sample, owner == body, bool(best.bodies.mirrored[body]))
-        given_up[body] = True
-        if count >= task.strips or len(own.points) < _FEWEST:
-            continue
-        task.tell(0.65 + 0.25 * given_up.mean(), "Adding strips")
-        tried = [task.solved(bodies, small, 8, best.noise) for bodies in with_one_more(own, best, body)]
-        trial = min(tried, key=lambda solution: _criterion(solution, small))
-        gain = _criterion(best, small) - _criterion(trial, small)
-        if gain > WORTH:
-            best = trial
-            given_up[body] = False
-            steps.append(Step(f"part {body + 1} with {count + 1} strips", gain))
+        for body in growing.copy():
+            own = _own_side(sample, owner == body, bool(best.bodies.mirrored[body]))
+            trial = _with_one_strip_more(task, best, body, own)
+            gain = task.criterion(best) - task.criterion(trial)
+            if gain > WORTH:
+                best = trial
+                steps.append(Step(f"part {body + 1} with {int(np.sum(best.bodies.owner == body))} strips", gain))
+            else:
+                growing.remove(body)
+        best = task.together(best, _TOGETHER)
     return best
+
+
+def _with_one_strip_more(task: _Task, best: Solution, body: int, own: Cloud) -> Solution:
+    """The best of several ways to add a strip to a body with these points, which is moved alone; if there is room for one."""
+    if np.sum(best.bodies.owner == body) >= task.strips or len(own.points) < _FEWEST:
+        return best
+    moving = np.arange(len(best.bodies)) == body
+    tried = [task.settled(best, bodies, moving, own.points) for bodies in with_one_more(own, best, body)]
+    return min(tried, key=lambda solution: solution.cost, default=best)
 
 
 def _own_side(sample: Cloud, own: NDArray[np.bool_], mirrored: bool) -> Cloud:

@@ -7,10 +7,11 @@ estimated along the way (as in Liu et al., CVPR 2022, and as usual with mixtures
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import log, pi, sqrt
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .bodies import Array, Bodies
 from .distance import Measured, distances
@@ -19,7 +20,7 @@ _FEWEST = 1e-3
 # The share of the diagonal that is added to it at first, and steps that are tried in a round.
 _DAMPING, _TRIALS = 1e-2, 6
 # Times that numbers at the end of their range are looked for.
-_HELD = 2
+_HELD = 3
 # The deviation to begin with, at least.
 _WIDE = 2e-3
 _NONE = np.empty((0, 3))
@@ -42,6 +43,12 @@ class Evidence:
     doubt: float = 0.1
     outliers: float = 0.6
     span: float = 0.1
+
+    def near(self, middle: Array, reach: float) -> Evidence:
+        """What is known within a ball."""
+        far = np.linalg.norm(self.surface - middle, axis=1)
+        outside, inside = (points[np.linalg.norm(points - middle, axis=1) < reach] for points in (self.outside, self.inside))
+        return replace(self, surface=self.surface[far < reach], away=self.away[far < reach], outside=outside, inside=inside)
 
     def measured(self, bodies: Bodies) -> Measured:
         """The distances of all points, surface, outside and inside."""
@@ -123,11 +130,14 @@ def solved(
     rounds: int,
     noise: Noise | None,
     pause: Callable[[], None],
+    moving: NDArray[np.bool_] | None = None,
 ) -> Solution:
     """The bodies moved, by at most so many steps, to where the evidence is most likely.
 
     `floor` is the deviation below which nothing is to be gained. `pause` is called before each step; what it raises ends it all.
+    Of the free numbers (`bodies.size`,) only those `moving` do, if it is told.
     """
+    moving = np.ones(bodies.size, dtype=bool) if moving is None else moving
     noise = first_noise(bodies, evidence, floor) if noise is None else noise
     count = len(evidence.surface)
     damping, still = _DAMPING, 0
@@ -137,16 +147,19 @@ def solved(
         pause()
         noise = noise.updated(miss[:count], floor, evidence.outliers)
         cost = evidence.cost(noise, miss)
-        rows = measured.rows()
-        weighted = rows * evidence.weights(noise, miss)
-        square, push = weighted @ rows.T, weighted @ miss
+        weights = evidence.weights(noise, miss)
+        heavy = np.flatnonzero(weights)
+        rows = measured.rows(heavy)[moving]
+        weighted = rows * weights[heavy]
+        square, push = weighted @ rows.T, weighted @ miss[heavy]
         for _ in range(_TRIALS):
-            step = _step(bodies, square, push, damping)
+            step = _step(bodies, moving, square, push, damping)
+            some = step[moving]
             trial = bodies.moved(step)
             measured = evidence.measured(trial)
             ahead = evidence.misses(measured.distance)
             gain = cost - evidence.cost(noise, ahead)
-            share = gain / max(-float(step @ push + 0.5 * step @ square @ step), 1e-300)
+            share = gain / max(-float(some @ push + 0.5 * some @ square @ some), 1e-300)
             damping *= 6.0 if share <= 0 else 2.0 if share < 0.25 else 1.0 if share < 0.75 else 0.2
             if gain > 0:
                 break
@@ -160,15 +173,17 @@ def solved(
     return Solution(bodies, noise, evidence.cost(noise, miss))
 
 
-def _step(bodies: Bodies, square: Array, push: Array, damping: float) -> Array:
-    """The damped step of all free numbers; those that it would lead out of their range stay, and the others go without them."""
+def _step(bodies: Bodies, moving: NDArray[np.bool_], square: Array, push: Array, damping: float) -> Array:
+    """The damped step of all free numbers, 0 for those not `moving`; those that it would lead out of their range stay, too."""
     diagonal = np.diagonal(square)
     damped = square + np.diag(damping * diagonal + 1e-9 * np.max(diagonal) + 1e-12)
-    step = np.asarray(np.linalg.solve(damped, -push))
+    step, free = np.zeros(bodies.size), np.flatnonzero(moving)
     for _ in range(_HELD):
-        free = ~bodies.held(step)
-        if free.all():
+        rows = np.flatnonzero(np.isin(np.flatnonzero(moving), free))
+        step[free] = np.linalg.solve(damped[np.ix_(rows, rows)], -push[rows])
+        held = bodies.held(step)
+        if not held.any():
             break
-        step = np.zeros_like(step)
-        step[free] = np.linalg.solve(damped[np.ix_(free, free)], -push[free])
+        step[held] = 0.0
+        free = free[~held[free]]
     return step

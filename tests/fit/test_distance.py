@@ -99,3 +99,17 @@ def test_the_scene_has_the_same_surface(bodies: Bodies, axis: int | None) -> Non
     )
     assert np.all(log_ratio(terms, inside) > 0)
     assert np.all(log_ratio(terms, outside) < 0)
+
+
+@pytest.mark.parametrize("body", [0, 1])
+def test_the_numbers_of_a_body_move_it_and_no_other(body: int) -> None:
+    before = framed()
+    chosen = np.arange(2) == body
+    after = before.moved(0.05 * before.numbers(chosen))
+    moved = chosen[before.owner]
+    assert np.all(after.gamma[moved] != before.gamma[moved])
+    assert np.all(np.any(after.normal[moved] != before.normal[moved], axis=1))
+    assert np.allclose(after.normal[~moved], before.normal[~moved], atol=1e-12)
+    assert np.allclose(after.offset[~moved], before.offset[~moved], atol=1e-12)
+    assert np.array_equal(after.hardness != before.hardness, chosen)
+    assert before.only(body).numbers(np.ones(1, dtype=bool)).size == before.only(body).size
