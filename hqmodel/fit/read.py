@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from itertools import islice
+from itertools import islice, takewhile
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -18,6 +18,8 @@ FORMATS = (".ply", ".obj", ".stl", ".xyz")
 SAMPLES = 30_000
 _BLOCK = 1 << 16
 _SHOWN = 40
+# Lines of a PLY file that its header is looked for in.
+_HEAD = 200
 
 
 class Read(NamedTuple):
@@ -55,6 +57,8 @@ def sampled(vertices: Array, faces: Array, count: int, rng: np.random.Generator)
 def _mesh(path: Path, suffix: str, rng: np.random.Generator) -> Read:
     import trimesh  # late: it takes its time
 
+    if suffix == ".ply" and path.is_file():  # a pipe is read once only
+        _must_be_whole(path)
     try:
         with path.open("rb") as stream:
             loaded: Any = trimesh.load(stream, file_type=suffix[1:], force=None, process=False)
@@ -67,21 +71,35 @@ def _mesh(path: Path, suffix: str, rng: np.random.Generator) -> Read:
             f"expected a file of the format {suffix[1:].upper()}, got one that can't be read: {_line(error)}"
         ) from None
     vertices = np.asarray(getattr(loaded, "vertices", np.empty((0, 3))), dtype=float)
-    told = getattr(loaded, "metadata", {}).get("_ply_raw", {}).get("vertex", {}).get("length", 0)
-    if len(vertices) < told:
-        raise FitError(f"header: expected {told:,} vertices as it says, got {len(vertices):,}")
     wrong = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
     if len(wrong):
         raise FitError(f"vertex {wrong[0]}: expected finite numbers, got {vertices[wrong[0]].tolist()}")
     faces = np.asarray(getattr(loaded, "faces", ()))
     if not len(faces):
         return Read(vertices, _stored_normals(loaded))
+    wrong = np.flatnonzero(((faces < 0) | (faces >= len(vertices))).any(axis=1))
+    if len(wrong):
+        raise FitError(f"face {wrong[0]}: expected vertices from 0 to {len(vertices) - 1}, got {faces[wrong[0]].tolist()}")
     loaded.merge_vertices(merge_norm=True, merge_tex=True)
     surface = sampled(np.asarray(loaded.vertices), np.asarray(loaded.faces), SAMPLES, rng)
     if not loaded.is_winding_consistent:
         return Read(surface.points, None)
     assert surface.normals is not None
     return Read(surface.points, surface.normals if loaded.volume >= 0 else -surface.normals)
+
+
+def _must_be_whole(path: Path) -> None:
+    """Raise FitError where a PLY file in letters has fewer or more lines than its header says; of others the reader knows."""
+    with path.open("rb") as stream:
+        lines = (line.split() for line in stream)
+        head = list(takewhile(lambda words: words != [b"end_header"], islice(lines, _HEAD)))
+        if [b"format", b"ascii"] not in [words[:2] for words in head]:
+            return
+        counts = [words[2] for words in head if words[:1] == [b"element"] and len(words) == 3]
+        told = sum(int(count) for count in counts if count.isdigit())
+        found = sum(1 for words in lines if words)
+    if found != told:
+        raise FitError(f"header: expected {told:,} lines after it, one for each thing it names, got {found:,}")
 
 
 def _stored_normals(cloud: Any) -> Array | None:

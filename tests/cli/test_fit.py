@@ -37,9 +37,14 @@ def test_a_file_without_a_cloud_is_told(hqmodel: Command, text: str) -> None:
     assert "fitted.json" not in files()
 
 
-SHORT = b"ply\nformat ascii 1.0\nelement vertex 1000\n%bend_header\n1 2 3\n4 5 6\n" % b"".join(
-    b"property float %c\n" % axis for axis in b"xyz"
-)
+def ply(vertices: int, faces: int, body: bytes) -> bytes:
+    """A PLY file in letters."""
+    axes = b"".join(b"property float %c\n" % axis for axis in b"xyz")
+    elements = b"element vertex %d\n%selement face %d\nproperty list uchar int vertex_indices\n" % (vertices, axes, faces)
+    return b"ply\nformat ascii 1.0\n%send_header\n%s" % (elements, body)
+
+
+CORNERS = b"0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
 
 
 @pytest.mark.parametrize(
@@ -48,7 +53,14 @@ SHORT = b"ply\nformat ascii 1.0\nelement vertex 1000\n%bend_header\n1 2 3\n4 5 6
         ("cloud.xyz", b"1 2 3\n4 5\n", "cloud.xyz: line 2: expected 3 numbers, got 2"),
         ("cloud.xyz", b"# x y z\n1 2 3\n4 nan 6\n", "cloud.xyz: line 3: expected finite numbers, got 'nan'"),
         ("cloud.ply", b"not a PLY file at all\n", "cloud.ply: expected a file of the format PLY, got one that can't be read: "),
-        ("cloud.ply", SHORT, "cloud.ply: header: expected 1,000 vertices as it says, got 2"),
+        (
+            "cloud.ply",
+            ply(1000, 0, CORNERS),
+            "cloud.ply: header: expected 1,000 lines after it, one for each thing it names, got 4",
+        ),
+        ("cloud.ply", ply(3, 0, CORNERS), "cloud.ply: header: expected 3 lines after it, one for each thing it names, got 4"),
+        ("cloud.ply", ply(4, 2, CORNERS + b"3 0 1 2\n"), "cloud.ply: header: expected 6 lines after it, "),
+        ("cloud.ply", ply(4, 1, CORNERS + b"3 0 1 4\n"), "cloud.ply: face 0: expected vertices from 0 to 3, got [0, 1, 4]"),
         ("cloud.obj", b"", "cloud.obj: "),
         ("cloud.stl", b"\x00" * 90, "cloud.stl: "),
         ("cloud.json", b"{}", "cloud.json: expected a file name that ends in .ply, .obj, .stl, .xyz, got .json"),
