@@ -7,7 +7,7 @@ Clouds of `--points` points of the convex reference shapes (or presets named), o
 superquadrics, each clean, with noise, among outliers and seen from one side: the median radial error against the true surface
 as a share of the diagonal, the strips used, and seconds. `--starts`: how many of so many random starts alone, refined without
 any search, end at the truth of a clean cloud. `--clouds`: files of points or meshes, and how far their points are from fits of
-so many parts.
+so many parts at most. `--shapes` without a name leaves the reference shapes out.
 """
 
 from __future__ import annotations
@@ -114,21 +114,32 @@ def thin_plate(plate: Scene, tries: int, count: int, console: Console) -> list[R
 
 def parts(files: list[Path], counts: list[int], console: Console) -> list[Row]:
     """Files fitted with several numbers of parts."""
-    table = Table(
-        "cloud", *[f"parts: {count}" for count in counts], title="median / 90 % of distances, % of the diagonal; seconds"
-    )
+    title = "mean / median / 95 % of the points' distances, % of the diagonal; parts and strips used; seconds"
+    table = Table("cloud", *[f"parts: {count}" for count in counts], title=title)
     rows = []
     for path in files:
-        points, normals = read(path)
+        cloud = read(path)
         for count in counts:
             with console.status(f"{path.name}, {count} parts"):
-                started = time.perf_counter()
-                report = fit(points, normals, parts=count).report.plain()
-                rows.append({"cloud": path.name, "most": count, "seconds": time.perf_counter() - started, **report})
-        cells = (f"{100 * row['median']:.2f} / {100 * row['most']:.2f}  {row['seconds']:.0f} s" for row in rows[-len(counts) :])
-        table.add_row(path.name, *cells)
+                rows.append({"cloud": path.name, "at most": count, **_with_parts(*cloud, count)})
+        table.add_row(path.name, *[_parts_cell(row) for row in rows[-len(counts) :]])
     console.print(table)
     return rows
+
+
+def _with_parts(points: Array, normals: Array | None, count: int) -> Row:
+    started = time.perf_counter()
+    found = fit(points, normals, parts=count)
+    seconds = time.perf_counter() - started
+    away = np.abs(found.residuals) / found.report.diagonal
+    median, most = np.quantile(away, (0.5, 0.95))
+    distances = {"mean": float(np.mean(away)), "median": float(median), "95 %": float(most)}
+    return distances | {"parts": found.report.parts, "strips": found.report.strips, "seconds": seconds}
+
+
+def _parts_cell(row: Row) -> str:
+    distances = " / ".join(f"{100 * row[name]:.2f}" for name in ("mean", "median", "95 %"))
+    return f"{distances}  {row['parts']}, {row['strips']}  {row['seconds']:.0f}"
 
 
 def _measured(scene: Scene, kind: str, count: int) -> Row:

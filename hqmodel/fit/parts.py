@@ -38,6 +38,8 @@ _GROUPED, _LEVELS, _OUT, _HOLLOW = 4.0, (1.0, 2.0, 4.0), 0.004, 0.05
 _ALONE, _BEST, _TOGETHER, _SETTLED = 10, 3, 6, 20
 # How far around its points a changed body is looked at: so many times as far as they reach, and a little.
 _AROUND, _BESIDE = 1.3, 0.03
+# Ways that a strip is tried in.
+_STRIPS = 4
 # Exchanging parts goes on while it lowers the criterion by so much.
 _EXCHANGED = 20.0
 
@@ -278,7 +280,7 @@ def _with_one_strip_more(task: _Task, best: Solution, body: int, own: Cloud) -> 
     if np.sum(best.bodies.owner == body) >= task.strips or len(own.points) < _FEWEST:
         return best
     moving = np.arange(len(best.bodies)) == body
-    tried = [task.settled(best, bodies, moving, own.points) for bodies in with_one_more(own, best, body)]
+    tried = [task.settled(best, bodies, moving, own.points) for bodies in with_one_more(own, best, body)[:_STRIPS]]
     return min(tried, key=lambda solution: solution.cost, default=best)
 
 
