@@ -78,10 +78,10 @@ def fit(
 ) -> Fit:
     """Fit hyperquadrics to points (N, 3) of a surface, in any order, with outliers, noise and gaps.
 
-    `normals` (N, 3), of any length, point outward and help. `parts` is the largest number of bodies, or "auto"; `strips` the
-    largest number of strips in each. Distances below `tolerance`, a share of the cloud's diagonal, count as none. The same
-    points and `seed` give the same scene. `progress` is told the share done (0..1) and what is being done; whatever it raises
-    ends the work.
+    `normals` (N, 3), of any length, point outward and help. `parts` is the largest number of bodies, a pair of mirror images
+    counting as one, or "auto"; `strips` the largest number of strips in each. Distances below `tolerance`, a share of the cloud's
+    diagonal, count as none. The same points and `seed` give the same scene. `progress` is told the share done (0..1) and what is
+    being done; whatever it raises ends the work.
 
     Raises FitError, with one line, for numbers out of range and for points that are no surface of a body.
     """
