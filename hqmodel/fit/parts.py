@@ -7,16 +7,14 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
 
 from .bodies import FLIP, Array, Bodies, joined
+from .candidates import FEWEST, folded, round_box, ways
 from .cloud import Cloud
-from .distance import distances, strengths
+from .distance import strengths
 from .lone import WORTH, Step, lifted, with_one_more
 from .occupancy import sides
 from .solve import Evidence, Noise, Solution, solved
-from .starts import held, principal_axes
 from .told import Told
 
 # Surface points that parts are tried on and refined on, and points on either side of it.
@@ -25,15 +23,6 @@ _TRIED, _REFINED, _SIDES = 2000, 6000, 1000
 _SOFT, _DOUBT = 0.005, 2.0
 # Points without company being left out, few outliers are left: the rest has to be explained.
 _OUTLIERS = 0.01
-# What new bodies begin with.
-_HARDNESS, _GAMMA = 5.0, 2.5
-# How far a body may grow in width.
-_ROOM = 1.5
-# Bodies that are tried to be split each time, groups of points that are tried to be added, and the fewest that make a body.
-_SPLIT, _ADDED, _FEWEST = 8, 3, 10
-# Points this many times further apart than neighbours are no longer of one group; how far out they all are, in the deviation's
-# multiples and in any case; and the least share of all points that is carved for: smaller dents are left to the bodies that add.
-_GROUPED, _LEVELS, _OUT, _HOLLOW = 4.0, (1.0, 2.0, 4.0), 0.004, 0.05
 # Steps of changed bodies alone, the changes that are tried on with all bodies then, steps of these, and of what is kept.
 _ALONE, _BEST, _TOGETHER, _SETTLED = 10, 3, 6, 20
 # How far around its points a changed body is looked at: so many times as far as they reach, and a little.
@@ -42,16 +31,6 @@ _AROUND, _BESIDE = 1.3, 0.03
 _STRIPS = 4
 # Exchanging parts goes on while it lowers the criterion by so much.
 _EXCHANGED = 20.0
-
-
-@dataclass(frozen=True, eq=False)
-class _Way:
-    """Bodies changed: some new ones, made of points (N, 3), take the place of others."""
-
-    what: str
-    kept: list[Bodies]
-    fresh: list[Bodies]
-    points: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,7 +99,7 @@ def several_bodies(
     outside, inside = sides(cloud.points, _SIDES // (2 if symmetric else 1), rng)
     task = _Task(cloud, outside, inside, symmetric, strips, floor, tell)
     steps = [Step("1 part to begin with", 0.0)]
-    best = task.solved(_body(task, _folded(task, task.sample(_TRIED).points)), task.small, 20)
+    best = task.solved(round_box(folded(task.sample(_TRIED).points, symmetric), symmetric), task.small, 20)
     best = _with_strips(task, _exchanged(task, _grown(task, best, parts, steps), steps), steps)
     tell(0.9, "Refining")
     return task.solved(best.bodies, task.evidence(_REFINED), 30, best.noise), steps
@@ -157,7 +136,7 @@ def _exchanged(task: _Task, best: Solution, steps: list[Step]) -> Solution:
 def _with_one_part_more(task: _Task, best: Solution) -> tuple[Solution, str]:
     """The best of the ways to have one body more: the new ones are tried alone first, the best of them with all others."""
     tried = []
-    for way in _ways(task, best):
+    for way in ways(best, task.sample(_TRIED).points, task.symmetric):
         bodies = joined([*way.kept, *way.fresh])
         fresh = np.arange(len(bodies)) >= len(way.kept)
         tried.append((task.settled(best, bodies, fresh, way.points), way.what))
@@ -177,82 +156,9 @@ def _with_least_dropped(task: _Task, best: Solution) -> tuple[Solution, str]:
         own = owner == body if np.any(owner == body) else np.ones(len(owner), dtype=bool)
         heirs = np.argmax(np.delete(strength[:, own], body, axis=0), axis=0)
         rest = joined(best.bodies.others(body))
-        tried.append(task.settled(best, rest, np.isin(np.arange(len(rest)), heirs), _folded(task, points[own])))
+        tried.append(task.settled(best, rest, np.isin(np.arange(len(rest)), heirs), folded(points[own], task.symmetric)))
     least = int(np.argmin([solution.cost for solution in tried]))
     return task.together(tried[least], _TOGETHER), f"part {least + 1} dropped"
-
-
-def _ways(task: _Task, best: Solution) -> list[_Way]:
-    """The ways to have one body more: the worst of them split, one added, one carving."""
-    points = task.sample(_TRIED).points
-    miss = distances(best.bodies, points)
-    owner = np.argmax(strengths(best.bodies, points), axis=0)
-    cost = np.minimum(np.abs(miss), 0.05)
-    ways = []
-    for body in np.argsort(-np.bincount(owner, cost, len(best.bodies)))[:_SPLIT]:
-        own = owner == body
-        for halves in _halves(task, points[own], miss[own]):
-            fresh = [_body(task, half) for half in halves]
-            ways.append(_Way(f"part {body + 1} split", best.bodies.others(body), fresh, np.concatenate(halves)))
-    for sign, what, fewest in ((1.0, "a part added", _FEWEST), (-1.0, "a carving part added", _HOLLOW * len(points))):
-        groups = [group for level in _LEVELS for group in _groups(task, points, sign * miss, level * best.noise.sigma)]
-        groups = list({group.tobytes(): group for group in groups if len(group) >= fewest}.values())
-        ways += [_Way(what, best.bodies.others(-1), [_body(task, group, sign)], group) for group in groups]
-    return ways
-
-
-def _halves(task: _Task, points: Array, miss: Array) -> list[list[Array]]:
-    """Points (N, 3) of a body parted in two, in several ways; of a symmetric cloud both halves are, too."""
-    folded = _folded(task, points)
-    if len(points) < 2 * _FEWEST:
-        return []
-    along = (folded - folded.mean(axis=0)) @ principal_axes(folded).T
-    badly = np.abs(miss) > np.quantile(np.abs(miss), 0.75)
-    ways = {_compact(folded, first).tobytes() for first in (*(along > 0).T, badly)}
-    labels = [np.frombuffer(way, dtype=bool) for way in sorted(ways)]
-    return [[folded[way], folded[~way]] for way in labels if _FEWEST <= np.count_nonzero(way) <= len(way) - _FEWEST]
-
-
-def _folded(task: _Task, points: Array) -> Array:
-    """Points (N, 3), of a symmetric cloud on one side of its plane."""
-    return points * np.where(points[:, :1] < 0, FLIP, 1.0) if task.symmetric else points
-
-
-def _compact(points: Array, label: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Two groups made compact: each point goes to the nearer centre (Lloyd)."""
-    for _ in range(10):
-        if label.all() or not label.any():
-            break
-        one, other = points[label].mean(axis=0), points[~label].mean(axis=0)
-        label = np.linalg.norm(points - one, axis=1) < np.linalg.norm(points - other, axis=1)
-    return label if label[0] else ~label
-
-
-def _groups(task: _Task, points: Array, away: Array, least: float) -> list[Array]:
-    """The groups of connected points (n, 3) that lie too far out, those furthest in all first."""
-    far = away > max(least, _OUT)
-    if task.symmetric:
-        far &= points[:, 0] >= 0
-    if np.count_nonzero(far) < _FEWEST:
-        return []
-    reach = _GROUPED * np.median(cKDTree(points).query(points, 2)[0][:, 1])
-    points, away, tree = points[far], away[far], cKDTree(points[far])
-    label = connected_components(tree.sparse_distance_matrix(tree, reach))[1]
-    return [points[label == group] for group in np.argsort(-np.bincount(label, away))[:_ADDED]]
-
-
-def _body(task: _Task, points: Array, sign: float = 1.0) -> Bodies:
-    """A round box about points (N, 3), one side's where the cloud is symmetric: in the middle if they reach it, else a pair."""
-    mirrored = False
-    if task.symmetric:
-        near, far = np.quantile(np.abs(points[:, 0]), (0.03, 0.97))
-        mirrored = bool(near > 0.15 * far)
-        points = _folded(task, points)
-        points = points if mirrored else np.concatenate([points, points * FLIP])
-    body = held(points, principal_axes(points), _GAMMA)
-    widest = _ROOM / np.linalg.norm(body.normal, axis=1)[None]
-    chosen = np.array([_HARDNESS]), np.array([sign]), np.array([mirrored])
-    return replace(body, hardness=chosen[0], sign=chosen[1], mirrored=chosen[2], widest=widest)
 
 
 def _with_strips(task: _Task, best: Solution, steps: list[Step]) -> Solution:
@@ -277,7 +183,7 @@ def _with_strips(task: _Task, best: Solution, steps: list[Step]) -> Solution:
 
 def _with_one_strip_more(task: _Task, best: Solution, body: int, own: Cloud) -> Solution:
     """The best of several ways to add a strip to a body with these points, which is moved alone; if there is room for one."""
-    if np.sum(best.bodies.owner == body) >= task.strips or len(own.points) < _FEWEST:
+    if np.sum(best.bodies.owner == body) >= task.strips or len(own.points) < FEWEST:
         return best
     moving = np.arange(len(best.bodies)) == body
     tried = [task.settled(best, bodies, moving, own.points) for bodies in with_one_more(own, best, body)[:_STRIPS]]
