@@ -60,6 +60,7 @@ bench: system-test $(VENV)/.installed-for-benchmarks
 	$(BIN)/python -m benchmarks.meshers --large
 	$(BIN)/python -m benchmarks.accuracy
 	$(BIN)/python -m benchmarks.accuracy --cells 128 --gamma 400
+	$(BIN)/python -m tests.mesh.volumes 200 256
 	$(BIN)/python -m benchmarks.preview
 	LIBGL_ALWAYS_SOFTWARE=1 xvfb-run -a -s "-screen 0 1600x1000x24" $(BIN)/python -m benchmarks.dragging
 	$(BIN)/python -m benchmarks.solvers
