@@ -91,13 +91,13 @@ def _mesh(path: Path, suffix: str, rng: np.random.Generator) -> Read:
 def _must_be_whole(path: Path) -> None:
     """Raise FitError where a PLY file in letters has fewer or more lines than its header says; of others the reader knows."""
     with path.open("rb") as stream:
-        lines = (line.split() for line in stream)
-        head = list(takewhile(lambda words: words != [b"end_header"], islice(lines, _HEAD)))
-        if [b"format", b"ascii"] not in [words[:2] for words in head]:
+        lines = (line.split() for line in islice(stream, _HEAD))
+        head = list(takewhile(lambda words: words != [b"end_header"], lines))
+        if len(head) == _HEAD or [b"format", b"ascii"] not in [words[:2] for words in head]:
             return
         counts = [words[2] for words in head if words[:1] == [b"element"] and len(words) == 3]
         told = sum(int(count) for count in counts if count.isdigit())
-        found = sum(1 for words in lines if words)
+        found = sum(1 for line in stream if line.strip())
     if found != told:
         raise FitError(f"header: expected {told:,} lines after it, one for each thing it names, got {found:,}")
 

@@ -10,6 +10,7 @@ import pytest
 from PIL import Image
 
 from hqmodel.files import load
+from hqmodel.fit import read
 from hqmodel.mesh import polygonize, report
 
 from .conftest import Command, files
@@ -89,6 +90,12 @@ def test_a_command_line_at_fault_is_told_before_the_cloud_is_read(hqmodel: Comma
     ended = hqmodel("fit", "missing.xyz", "-o", "fitted.json", *options)
     assert ended.status == 2
     assert told in ended.err
+
+
+def test_a_header_may_be_long(tmp_path: Path) -> None:
+    path = tmp_path / "cloud.ply"
+    path.write_bytes(ply(4, 0, CORNERS).replace(b"end_header", b"comment of a scanner\n" * 300 + b"end_header"))
+    assert len(read(path).points) == 4
 
 
 def test_a_missing_cloud_is_told(hqmodel: Command) -> None:
