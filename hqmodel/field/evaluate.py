@@ -130,9 +130,9 @@ def _straightened(terms: Terms, ratio: Array) -> tuple[Array, Array]:
 class _Straightening(NamedTuple):
     """How L becomes nearly linear: by the root `steep`, the largest exponent, of 1 - L/hard, for a lone shape H/C.
 
-    `hard` is the most that L comes to where only one shape adds, or, if that is less, what it does in a shape as high as its
-    level. Where several add, or a hyperbolic one, L may be more: from the share `least` on, it goes on as the root of what L is
-    beyond that, with the slope that it has there.
+    `hard` is the most that L comes to where only one shape adds, and no less than the largest hardness. Where several add, or a
+    hyperbolic one, L may be more: from the share `least` on, it goes on as the root of what L is beyond that, with the slope that
+    it has there.
     """
 
     hard: float

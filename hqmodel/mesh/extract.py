@@ -158,7 +158,7 @@ class _Nodes:
         used = np.zeros(len(self), dtype=bool)
         used[self.of_block] = True
         places = np.flatnonzero(used)
-        if sampling.by_cube:
+        if sampling.by_cube:  # so that few cubes share a chunk
             cube = ALONG @ (self._first // CUBE)
             places = places[np.argsort(cube.take(places // len(_OWN)), kind="stable")]
         result = np.zeros(len(self), dtype=np.float32)
