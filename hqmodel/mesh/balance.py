@@ -17,10 +17,10 @@ from .mesh import Array, Triangles, alike
 
 # The share, and how far a vertex may move at most, as a share of the longest side.
 _SHARE = 0.75
-_FURTHEST = 4e-5
+_FURTHEST = 6e-5
 # Not after faces that are further off than this share of a cell or whose corners' normals have a cosine below this.
-_SMOOTH = 0.02
-_ALIKE = 0.9
+_SMOOTH = 0.1
+_ALIKE = 0.8
 
 Steps = NDArray[np.float32]
 

@@ -29,8 +29,6 @@ _OFF = 0.02
 _ASIDE = 0.05
 # No edge of a face is looked at whose middle is nearer to the surface than so many quanta.
 _ROUGH = _OFF / 10 / QUANTUM
-# A point is on the surface when the last step towards it was shorter than this share of a cell.
-_ARRIVED = 1e-5
 
 
 class Creased(NamedTuple):
@@ -72,12 +70,13 @@ def creased(
     near = marks(sharp, faces) >= 2
     corners, which = np.unique(faces[near], return_inverse=True)
     part = Part(terms, vertices[corners], which.reshape(-1, 3), planes, still)
-    edges = part.edges()
-    edges = edges[np.all(sharp[corners[edges]], axis=1) & ~np.all(pinched[corners[edges]], axis=1)]
+    sharp, pinched = sharp[corners], pinched[corners]
     for _ in range(_ROUNDS):
-        part.split(*crossings(part, edges, cell))
         edges = part.edges()
-        edges = edges[edges[:, 1] >= len(corners)]
+        old = np.flatnonzero(edges[:, 1] < len(corners))
+        ends = edges[old].T
+        barred = ~np.logical_and(*sharp[ends]) | np.logical_and(*pinched[ends])
+        part.split(*crossings(part, np.delete(edges, old[barred], axis=0), cell))
     if len(part.points) == len(corners):
         return None
     number = np.append(corners, np.arange(len(part.points) - len(corners)) + len(vertices)).astype(np.int32)
@@ -96,11 +95,11 @@ def crossings(part: Part, edges: Indices, cell: float) -> tuple[Indices, Array]:
     m, n = (unit(np.where(held, 0.0, part.normals[end])) for end in (first, second))
     rows = np.flatnonzero(dots(m, n) < _SHARP)
     a, b, held = a[rows], b[rows], held[rows]
-    points, last = part.settled(_meeting(a, b, m[rows], n[rows], cell), 0.1 * cell, 8, held)
+    points, arrived = part.reached((a + b) / 2, _meeting(a, b, m[rows], n[rows], cell), cell, held)
     along = b - a
     share = dots(points - a, along) / np.maximum(dots(along, along), 1e-300)
     away = lengths(points - a - share[:, None] * along)
-    good = (last < _ARRIVED * cell) & (away > _OFF * cell) & (away < lengths(along)) & (share > _ASIDE) & (share < 1 - _ASIDE)
+    good = arrived & (away > _OFF * cell) & (away < lengths(along)) & (share > _ASIDE) & (share < 1 - _ASIDE)
     return edges[rows[good]], points[good]
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,7 +117,7 @@ class _Askew(NamedTuple):
     start: Array
     way: Array
     axis: NDArray[np.int64]
-    ends: Samples
+    ends: NDArray[np.floating[Any]]
 
     @classmethod
     def of(cls, grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64], ends: Samples, aside: Array) -> _Askew:
@@ -160,6 +160,16 @@ def _on_edges(terms: Terms, edges: _Edges | _Askew, still: Callable[[], None]) -
     points = edges.at(share)
     slopes[rest] = near_linear_gradient(terms, points[rest])[1]
     return points, slopes, share
+
+
+def crossed(terms: Terms, start: Array, end: Array, still: Callable[[], None]) -> tuple[Array, NDArray[np.bool_]]:
+    """Where ways from start to end, (n, 3) each, pass through the surface, (n, 3), and whether they do: end beyond it, (n,)."""
+    ends = np.stack([near_linear(terms, log_ratio(terms, points)) for points in (start, end)]).T
+    through = (ends[:, 0] > 0) != (ends[:, 1] > 0)
+    ways = _Askew(start, end - start, np.zeros(len(start), dtype=np.int64), ends).some(np.flatnonzero(through))
+    points = end.copy()
+    points[through] = ways.at(_roots(terms, ways, still))
+    return points, through
 
 
 def _held(grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64]) -> NDArray[np.bool_]:

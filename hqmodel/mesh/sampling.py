@@ -24,6 +24,8 @@ _ROUNDING = 1e-13
 CUBE = 64
 # What a strip bounds may be thinner than a cell somewhere when it is thinner than so many at most.
 _THIN = 4.0
+# It tapers to less than a cell where that takes so many cells.
+_TAPERS = 0.25
 # How far beside a thin part nodes belong to it, in cells.
 _BESIDE = 1.5
 
@@ -32,7 +34,7 @@ class ThinStrip(NamedTuple):
     """A strip's function of the nodes' numbers: its `gradient` (3,) and what is added, `constant`.
 
     What it bounds is where all the shape's strips, `gradients` (k, 3) and `constants` (k,), are within the `room` (k,) that they
-    have, or a cell and a half from it.
+    have, or a cell and a half from it. It `adds` to the body or carves it, and is `thin` throughout or only tapers.
     """
 
     gradient: Array
@@ -40,14 +42,17 @@ class ThinStrip(NamedTuple):
     gradients: Array
     constants: Array
     room: Array
+    adds: bool
+    thin: bool
 
     def of(self, numbers: Array) -> Array:
         """The strip's function at numbers (n, 3), (n,)."""
         return numbers @ self.gradient + self.constant
 
-    def near(self, numbers: Array) -> NDArray[np.bool_]:
-        """Whether numbers (n, 3) are where the shape may be, or next to it, (n,)."""
-        return np.all(np.abs(numbers @ self.gradients.T + self.constants) <= self.room, axis=1)
+    def near(self, numbers: Array, around: float = 0.0) -> NDArray[np.bool_]:
+        """Whether numbers (n, 3), or what is so many cells around them, are where the shape may be, or next to it, (n,)."""
+        room = self.room + around * np.sum(np.abs(self.gradients), axis=1)
+        return np.all(np.abs(numbers @ self.gradients.T + self.constants) <= room, axis=1)
 
 
 class Sampling:
@@ -113,11 +118,20 @@ class Sampling:
         return relevant(self._terms, self._grid, (cube // ALONG % ALONG[1])[None] * CUBE, CUBE)
 
     def thin_strips(self) -> Iterator[ThinStrip]:
-        """Strips that bound something of a few cells' thickness, or carve it."""
+        """Strips that bound, or carve, something a few cells thick, or that tapers to less than a cell."""
         terms, steps = self._here, self._grid.steps
-        gradient, reach = terms.normal * steps, reaches(terms, 0.0)
+        gradient = terms.normal * steps
         constant = terms.offset + terms.normal @ self._grid.points(np.ones((1, 3), dtype=np.int64))[0] - np.sum(gradient, axis=1)
-        for strip in np.flatnonzero((reach > 0) & (2 * reach < _THIN * np.max(np.abs(gradient), axis=1))).tolist():
-            own = terms.term_of_strip == terms.term_of_strip[strip]
-            room = reach[own] + _BESIDE * np.sum(np.abs(gradient[own]), axis=1)
-            yield ThinStrip(gradient[strip], float(constant[strip]), gradient[own], constant[own], room)
+        room = reaches(terms, np.log(max(1, int(np.count_nonzero(self._terms.positive)))))  # with others' help
+        with np.errstate(divide="ignore", invalid="ignore"):
+            thick = 2 * reaches(terms, 0.0) / np.max(np.abs(gradient), axis=1)
+        thin = thick < _THIN
+        tapers = np.maximum(thick, 1.0) ** -terms.inner * max(len(nodes) for nodes in self._grid.nodes) > _TAPERS
+        for strip in np.flatnonzero((thin | tapers) & (room > 0) & np.isfinite(room)).tolist():
+            term = terms.term_of_strip[strip]
+            own = terms.term_of_strip == term
+            beside = room[own] + _BESIDE * np.sum(np.abs(gradient[own]), axis=1)
+            adds = bool(terms.positive[term])
+            yield ThinStrip(
+                gradient[strip], float(constant[strip]), gradient[own], constant[own], beside, adds, bool(thin[strip])
+            )

@@ -122,19 +122,24 @@ def _at_peaks(of_block: NDArray[np.int32], samples: Samples, named: Named, sampl
 def _in_thin_strips(of_block: NDArray[np.int32], samples: Samples, named: Named, sampling: Sampling) -> Iterator[Found]:
     """The middle planes of thin strips: the field may tell nothing of those a cell away."""
     first = named(of_block[:, 0]).astype(float)
+    middle = first + BLOCK / 2
     for strip in sampling.thin_strips():
-        h, along = strip.of(first), np.multiply.outer(strip.gradient, _STEPS)
-        crossed = np.abs(h + np.sum(strip.gradient) * BLOCK / 2) < np.sum(np.abs(strip.gradient)) * BLOCK / 2
-        if not crossed.any():
+        crossed = np.flatnonzero(np.abs(strip.of(middle)) < np.sum(np.abs(strip.gradient)) * BLOCK / 2)
+        crossed = crossed[strip.near(middle[crossed], BLOCK / 2)]
+        if not crossed.size:
             continue
-        i, j, k = along
-        ahead = i[:, None, None, None] + j[:, None, None] + k[:, None] + h[crossed] > 0
+        i, j, k = np.multiply.outer(strip.gradient, _STEPS)
+        ahead = i[:, None, None, None] + j[:, None, None] + k[:, None] + strip.of(first[crossed]) > 0
         edges = _Lines(of_block[crossed], samples).edges(partial(_changes, ahead))
         node = named(edges.start).astype(float)
         share = np.clip(-strip.of(node) / strip.gradient[edges.axis], _APART, 1 - _APART)
         node[np.arange(len(node)), edges.axis] += share
         near = strip.near(node)
-        yield *(column[near] for column in (*edges, share)), sampling.at(node[near])
+        value, outside = sampling.at(node[near]), samples[edges.start[near]] < 0
+        kept = (value > 0) == outside
+        if strip.thin:
+            kept |= outside == strip.adds
+        yield *(column[near][kept] for column in (*edges, share)), value[kept]
 
 
 def _changes(ahead: NDArray[np.bool_], axis: int) -> Iterator[NDArray[np.bool_]]:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from hqmodel.field import Terms, near_linear_gradient
 
 from .mesh import Array, crosses, dots, lengths, slices, unit
-from .refine import to_surface
+from .refine import crossed, to_surface
 
 Indices = NDArray[np.intp]
 Plane = tuple[int, float]
@@ -18,6 +18,10 @@ Plane = tuple[int, float]
 # No triangle is made that is flatter than this (height to length), or leans further from the way it is to look (the cosine).
 _FLAT = 2e-3
 _LEAN = 0.1
+# A point is on the surface when the last step towards it was shorter than this share of a cell.
+ARRIVED = 1e-5
+# Steps towards it, of this share of a cell at most.
+_ROUNDS, _STRIDE = 16, 0.1
 
 
 class Part:
@@ -48,6 +52,15 @@ class Part:
             self._still()
             moved[here], last[here] = to_surface(self._terms, points[here], stride, rounds, held[here])
         return moved, last
+
+    def reached(self, start: Array, end: Array, cell: float, held: NDArray[np.bool_]) -> tuple[Array, NDArray[np.bool_]]:
+        """The surface near `end`, (n, 3) each, and whether it was reached, (n,): by Newton's steps, or where these get lost, as
+        between sides of unlike steepness, on the way there from `start`."""
+        points, last = self.settled(end, _STRIDE * cell, _ROUNDS, held)
+        arrived = last < ARRIVED * cell
+        lost = np.flatnonzero(~arrived)
+        points[lost], arrived[lost] = crossed(self._terms, start[lost], end[lost], self._still)
+        return points, arrived
 
     def edges(self) -> Indices:
         """All edges (n, 2), the lower vertex first."""

@@ -16,7 +16,7 @@ from hqmodel.field import Terms, curvature, near_linear_gradient
 from .creases import crossings
 from .decimate import simplified
 from .mesh import Array, Mesh, Triangles, crosses, dots, lengths, marks
-from .splits import Indices, Part
+from .splits import ARRIVED, Indices, Part
 from .stars import Bools, Near
 from .surface import STEPS, Surface
 
@@ -45,8 +45,6 @@ _ROUNDS = 12
 _TRIES, _ROOM = 5, 2.0
 # How much further off a mesh that misses the tolerance itself may come to be, each time that it is reduced.
 _WORSE = 1.35
-# A point is on the surface when the last step towards it was shorter than this share of a cell.
-_ARRIVED = 1e-5
 # Faces whose middles are off by less than this share of the tolerance are not, elsewhere, off by what they may be.
 _DOUBTFUL = 0.15
 
@@ -192,5 +190,5 @@ def _splits(surface: Surface, part: Part, off: Array, most: float) -> tuple[Indi
     chosen = np.where(by_length, np.argmax(length[of_side], axis=1), np.argmax(away[of_side], axis=1))
     wanted = np.unique(of_side[np.arange(len(chosen)), chosen])
     ahead = dots(part.looking(middles), part.normals[edges].sum(axis=1)) > 0
-    there = (last < _ARRIVED * surface.cell) & (away < 0.5 * length) & ahead
+    there = (last < ARRIVED * surface.cell) & (away < 0.5 * length) & ahead
     return edges[wanted], middles[wanted], there[wanted]

@@ -13,6 +13,7 @@ from hqmodel.mesh import polygonize, report, thin_parts
 from hqmodel.model import Scene, Shape, Strip, Transform
 
 from ..cases import NAMES, case
+from .volumes import volume
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 BALL = 4.18879
@@ -50,6 +51,29 @@ def test_a_plate_of_a_hundredth_of_a_cell_is_there_without_holes(turn: tuple[flo
     assert 0.8 < share < 1.02  # what is less is at its sides, where it ends within a cell
     assert euler_number == 2
     assert thin_parts(scene, 64) == []
+
+
+@pytest.mark.parametrize("turn", [(0.3, 0.2, 0.1), (0.6, 0.6, 0.3), (1.1, -0.4, 2.0)])
+@pytest.mark.parametrize("half", [0.1, 0.2])
+def test_what_tapers_is_there_to_its_edge(turn: tuple[float, float, float], half: float) -> None:
+    """A flat octahedron, 6 or 13 cells thick in its middle."""
+    flat = plate(half, turn, hardness=1.0)
+    body = flat.changed(strips=tuple(strip.changed(gamma=1.0) for strip in flat.strips))
+    measured = report(polygonize(Scene(shapes=(body,)), 64, shading=False))
+    assert measured["volume"] == pytest.approx(4 / 3 * half, rel=1.5e-3)
+    assert measured["euler_number"] == 2
+
+
+@pytest.mark.parametrize("turn", [(0.3, 0.2, 0.1), (0.6, 0.6, 0.3)])
+@pytest.mark.parametrize("half", [0.02, 0.001])
+def test_a_sheet_that_two_shapes_make_together(turn: tuple[float, float, float], half: float) -> None:
+    """Neither comes to the level alone."""
+    thin = plate(half, turn, hardness=1.0, coefficient=0.9, constant=0.0)
+    broad = Shape(strips=tuple(Strip(normal=n, gamma=8.0) for n in (X, Y, Z)), coefficient=0.3, constant=0.0)
+    scene = Scene(shapes=(thin.changed(strips=tuple(strip.changed(gamma=2.0) for strip in thin.strips)), broad))
+    measured = report(polygonize(scene, 64, shading=False))
+    assert measured["volume"] == pytest.approx(volume(scene), rel=0.02)
+    assert measured["euler_number"] == 2
 
 
 @pytest.mark.parametrize("turn", [(0.0, 0.0, 0.0), (0.3, 0.2, 0.1), (0.6, 0.6, 0.3)])
