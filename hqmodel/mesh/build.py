@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError, Future, ThreadPoolExecutor, wait
 from dataclasses import replace
 from functools import partial
-from math import inf
+from math import ceil, inf
 from typing import TypeVar
 
 import numpy as np
@@ -40,6 +40,9 @@ Result = TypeVar("Result")
 Progress = Callable[[float, str], None]
 USUAL_RESOLUTION, MAX_RESOLUTION = 256, 2048
 FEWEST_FACES = 4
+# A body so many times smaller than its region is meshed again, with cells that are its own longest side's, but at most so many
+# times smaller.
+_LOOSE, _FINER = 1.2, 4.0
 # Neighbouring blocks that make one job: enough for NumPy's calls to be worth it, few enough to stay small in memory.
 RUN = 2400
 # Seconds between two looks at whether a piece is done, or no longer wanted.
@@ -94,17 +97,26 @@ def _mesh(scene: Scene, resolution: int, tell: Progress, target_faces: int | Non
     _must_exist(scene, where)
     _must_be_near(where)
     mirrored = mirror_axes(terms, where)
-    grid = make_grid(where, resolution, mirrored)
-    weld = Weld()
-    balance = Balance.of(grid, mirrored, float(np.max(where.size)))
-    for piece, share in _pieces(scene, terms, balance, tell):
-        weld.add(piece, share)
-    if not weld:
-        raise MeshError("no surface: the field does not reach its level anywhere at this resolution")
+    longest = float(np.max(where.size))
+    balance = Balance.of(make_grid(where, resolution, mirrored), mirrored, longest)
+    weld = _welded(scene, terms, balance, tell)
+    if longest > _LOOSE * weld.longest(mirrored):
+        finer = ceil(resolution * min(longest / weld.longest(mirrored), _FINER))
+        balance = Balance.of(make_grid(where, finer, mirrored), mirrored, weld.longest(mirrored))
+        weld = _welded(scene, terms, balance, tell)
     still = partial(tell, 0.95, "Joining" if target_faces is None and tolerance is None else "Reducing")
     still()
     mesh = finished(scene, terms, balance, weld, target_faces, tolerance, still)
     return replace(mesh, resolution=resolution)
+
+
+def _welded(scene: Scene, terms: Terms, balance: Balance, tell: Progress) -> Weld:
+    weld = Weld()
+    for piece, share in _pieces(scene, terms, balance, tell):
+        weld.add(piece, share)
+    if not weld:
+        raise MeshError("no surface: the field does not reach its level anywhere at this resolution")
+    return weld
 
 
 def _silent(share: float, doing: str) -> None:

@@ -75,6 +75,13 @@ class Weld:
     def _extend(self, name: str, rows: NDArray[Any], share: float) -> None:
         self._columns.setdefault(name, _Column(rows)).extend(rows, share)
 
+    def longest(self, mirrored: tuple[int, ...]) -> float:
+        """The longest side of what is there, with its images on the other side of the planes `mirrored`."""
+        vertices = self._columns["vertices"].rows
+        low, high = vertices.min(axis=0), vertices.max(axis=0)
+        low[list(mirrored)] = -high[list(mirrored)]
+        return float(np.max(high - low))
+
     def take(self, name: str) -> NDArray[Any]:
         """A part of the pieces, all in one, which is given away."""
         return self._columns.pop(name).rows

@@ -15,6 +15,7 @@ from hqmodel.model import Group, Scene, Shape, Strip, Transform
 
 from ..cases import NAMES, case
 from ..gpu.scenes import random_scene
+from .volumes import scene_of
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
@@ -198,6 +199,16 @@ def test_caps_are_flat_and_closed() -> None:
     assert measured["bounds"][1][2] == 1.5
     assert measured["euler_number"] == 2
     assert np.count_nonzero(mesh.vertices[:, 2] == 1.5) > 100
+
+
+def test_cells_are_counted_along_the_body_where_its_bounds_are_wide() -> None:
+    scene = scene_of(41)  # which bounds put into a box three times as long as it is
+    mesh = polygonize(scene, 64, shading=False)
+    low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
+    assert np.max(region(scene).size) > 2 * np.max(high - low)
+    margin = 0.02 * np.max(high - low)
+    close = scene.changed(bounds=(tuple((low - margin).tolist()), tuple((high + margin).tolist())))
+    assert len(mesh.faces) == pytest.approx(len(polygonize(close, 64, shading=False).faces), rel=0.15)
 
 
 def test_bounds_that_slice_a_ball_in_half() -> None:
