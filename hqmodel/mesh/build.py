@@ -40,6 +40,8 @@ Result = TypeVar("Result")
 Progress = Callable[[float, str], None]
 USUAL_RESOLUTION, MAX_RESOLUTION = 256, 2048
 FEWEST_FACES = 4
+# The share of the work that is done when all is meshed, where faces are to be reduced, and when only the report is left.
+_FIRST, _LAST = 0.15, 0.95
 # A body so many times smaller than its region is meshed again, with cells that are its own longest side's, but at most so many
 # times smaller.
 _LOOSE, _FINER = 1.2, 4.0
@@ -98,21 +100,26 @@ def _mesh(scene: Scene, resolution: int, tell: Progress, target_faces: int | Non
     _must_be_near(where)
     mirrored = mirror_axes(terms, where)
     longest = float(np.max(where.size))
+    reducing = target_faces is not None or tolerance is not None
+    meshed = _FIRST if reducing else _LAST
     balance = Balance.of(make_grid(where, resolution, mirrored), mirrored, longest)
-    weld = _welded(scene, terms, balance, tell)
+    weld = _welded(scene, terms, balance, meshed, tell)
     if longest > _LOOSE * weld.longest(mirrored):
         finer = ceil(resolution * min(longest / weld.longest(mirrored), _FINER))
         balance = Balance.of(make_grid(where, finer, mirrored), mirrored, weld.longest(mirrored))
-        weld = _welded(scene, terms, balance, tell)
-    still = partial(tell, 0.95, "Joining" if target_faces is None and tolerance is None else "Reducing")
-    still()
-    mesh = finished(scene, terms, balance, weld, target_faces, tolerance, still)
+        weld = _welded(scene, terms, balance, meshed, tell)
+
+    def finishing(done: float) -> None:
+        tell(meshed + done * (_LAST - meshed), "Reducing" if reducing else "Joining")
+
+    mesh = finished(scene, terms, balance, weld, target_faces, tolerance, finishing)
     return replace(mesh, resolution=resolution)
 
 
-def _welded(scene: Scene, terms: Terms, balance: Balance, tell: Progress) -> Weld:
+def _welded(scene: Scene, terms: Terms, balance: Balance, meshed: float, tell: Progress) -> Weld:
+    """All pieces; `tell` is told the share done, which is `meshed` at the end."""
     weld = Weld()
-    for piece, share in _pieces(scene, terms, balance, tell):
+    for piece, share in _pieces(scene, terms, balance, lambda share: tell(meshed * share, "Meshing")):
         weld.add(piece, share)
     if not weld:
         raise MeshError("no surface: the field does not reach its level anywhere at this resolution")
@@ -139,12 +146,12 @@ def _must_be_near(where: Region) -> None:
         raise MeshError(f"expected a body nearer to the origin, got one {side:.3g} long at a distance of {away:.3g}")
 
 
-def _pieces(scene: Scene, terms: Terms, balance: Balance, tell: Progress) -> Iterator[tuple[Piece, float]]:
-    """The mesh in pieces, each with the share of the blocks that are done with it."""
+def _pieces(scene: Scene, terms: Terms, balance: Balance, tell: Callable[[float], None]) -> Iterator[tuple[Piece, float]]:
+    """The mesh in pieces, each with the share of the blocks that are done with it, which `tell` is told again and again."""
     share, stopped = 0.0, threading.Event()
 
     def waiting() -> None:
-        tell(0.95 * share, "Meshing")
+        tell(share)
 
     found = _in_order(partial(blocks_of, terms, balance.grid), list(tiles(terms, balance.grid)), waiting, threading.Event())
     blocks = np.concatenate([np.empty((0, 3), dtype=np.int32), *found], dtype=np.int32, casting="same_kind")

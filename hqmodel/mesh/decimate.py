@@ -48,6 +48,7 @@ def simplified(
     most: float = inf,
     near: Near | None = None,
     still: Callable[[], None] = lambda: None,
+    left: Callable[[int], None] = lambda faces: None,
 ) -> tuple[Array, Triangles]:
     """Vertices and faces of a mesh, (V, 3) and (F, 3), with `target` faces or one less; with more where that can't be reached.
 
@@ -58,14 +59,15 @@ def simplified(
     `place` brings points (n, 3) onto the surface and leaves held coordinates, (n, 3), alone; points within a flat part all
     whose vertices are held are not asked for. `most` is about how far faces may come to lie from the surface, in the unit of
     the mesh. `near` tells which triangles, by their corners (n, 3) each, lie near enough to the surface to be made.
-    `still` is called again and again; whatever it raises ends the work.
+    `still` is called again and again, `left` with how many faces there are after each round; whatever they raise ends the work.
     """
     work = _Work.of(vertices, faces, held, mirrored, most, still)
     changed = True
-    while (left := work.count - target) > 0:
-        edges = work.cheapest(left)
+    while (surplus := work.count - target) > 0:
+        left(work.count)
+        edges = work.cheapest(surplus)
         if len(edges):
-            changed |= work.collapse(edges, left, place, near)
+            changed |= work.collapse(edges, surplus, place, near)
         elif changed:
             work.price(np.arange(work.faces.size))  # what could not be collapsed may be by now
             changed = False

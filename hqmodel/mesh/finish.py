@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
+from math import log
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +25,29 @@ from .surface import Surface
 from .tolerance import adapted
 from .weld import Weld
 
+# A tolerance leaves about one of so many faces: what its progress is told by.
+_TOLERABLE = 20
+
+
+@dataclass
+class _Told:
+    """The share of the finishing that is done: by how many faces are left, from `most` to `fewest`. It never falls."""
+
+    tell: Callable[[float], None]
+    most: int = 0
+    fewest: float = 0.0
+    done: float = 0.0
+
+    def still(self) -> None:
+        """Tell it once more."""
+        self.tell(self.done)
+
+    def left(self, faces: int) -> None:
+        """So many faces are left."""
+        share = log(self.most / max(faces, 1)) / log(self.most / max(self.fewest, 1))
+        self.done = min(max(self.done, share), 1.0)
+        self.still()
+
 
 def finished(
     scene: Scene,
@@ -31,12 +56,14 @@ def finished(
     weld: Weld,
     target_faces: int | None,
     tolerance: float | None,
-    still: Callable[[], None],
+    tell: Callable[[float], None],
 ) -> Mesh:
     """The whole mesh from its welded pieces: the part on one side of the mirror planes, and its images.
 
-    `still` is called again and again; whatever it raises ends the work.
+    `tell` is told the share done (0..1) again and again; whatever it raises ends the work.
     """
+    told = _Told(tell)
+    still = told.still
     grid, mirrored = balance.grid, balance.mirrored
     vertices, faces, worst, normals = (weld.take(name) for name in ("vertices", "faces", "worst", "normals"))
     step = np.zeros(len(vertices), dtype=np.float32)
@@ -58,7 +85,8 @@ def finished(
     share = len(faces) if target_faces is None else target_faces // 2 ** len(mirrored)
     error = 0.0
     if tolerance is not None or share < len(faces):
-        surface = Surface(terms, planes, len(grid.cuts), grid.cell, still)
+        told.most, told.fewest = len(faces), share if tolerance is None else len(faces) / _TOLERABLE
+        surface = Surface(terms, planes, len(grid.cuts), grid.cell, still, told.left)
         if tolerance is not None:
             slopes = near_linear_gradient(terms, vertices)[1]
             off = off_surface(terms, grid, vertices, slopes, faces) * (QUANTUM * grid.cell)
@@ -88,7 +116,9 @@ def _fewer(
     def place(points: Array, held: NDArray[np.bool_]) -> Array:
         return to_surface(surface.terms, points, surface.cell, 5, held)[0]
 
-    return simplified(vertices, faces, target, surface.flat(vertices) > 0, mirrored, place, still=surface.still)
+    return simplified(
+        vertices, faces, target, surface.flat(vertices) > 0, mirrored, place, still=surface.still, left=surface.left
+    )
 
 
 def _worst_of_parts(

@@ -36,7 +36,8 @@ class Surface:
     """The true surface, where a grid of cells of size `cell` found it.
 
     Of the `planes` (axis, coordinate) the first `cuts` cut it off, and the others mirror it.
-    `still` is called again and again; whatever it raises ends the work.
+    `still` is called again and again, and `left` with how many faces are left as a mesh is reduced; whatever they raise ends the
+    work.
     """
 
     terms: Terms
@@ -44,6 +45,7 @@ class Surface:
     cuts: int
     cell: float
     still: Callable[[], None]
+    left: Callable[[int], None]
 
     def flat(self, points: Array) -> Indices:
         """In which plane, numbered from 1, each coordinate of points lies, (n, 3); 0 for none."""

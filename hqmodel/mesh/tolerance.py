@@ -133,7 +133,7 @@ def _reduced(
     allowed = max(tolerance, _WORSE * float(np.max(off[off > tolerance], initial=0.0)))
     held, room = surface.flat(vertices) > 0, _ROOM * max(surface.cell, tolerance)
     for _ in range(_TRIES):
-        fewer = simplified(vertices, faces, 0, held, mirrored, surface.nearest, most, near, surface.still)
+        fewer = simplified(vertices, faces, 0, held, mirrored, surface.nearest, most, near, surface.still, surface.left)
         result = _refined(surface, *fewer, surface.off(*fewer, _AT_LAST * tolerance), _AT_LAST * tolerance)
         if not np.any(result[2] > allowed):
             return result

@@ -297,11 +297,14 @@ def test_resolution_out_of_range(resolution: int) -> None:
         polygonize(case("sphere").scene, resolution)
 
 
-def test_progress_rises_and_its_exception_ends_the_work() -> None:
-    heard: list[float] = []
-    polygonize(case("sphere").scene, 64, lambda share, doing: heard.append(share))
-    assert heard == sorted(heard)
-    assert heard[-1] == 1.0
+@pytest.mark.parametrize("reduced", [{}, {"target_faces": 500}, {"tolerance": 0.01}])
+def test_progress_rises_and_its_exception_ends_the_work(reduced: dict[str, Any]) -> None:
+    heard: dict[str, list[float]] = {}
+    polygonize(case("sphere").scene, 64, lambda share, doing: heard.setdefault(doing, []).append(share), **reduced)
+    told = [share for shares in heard.values() for share in shares]
+    assert told == sorted(told)
+    assert told[-1] == 1.0
+    assert not reduced or len(set(heard["Reducing"])) > 5
 
     class Stop(Exception):
         pass
