@@ -25,7 +25,7 @@ _ROUNDS = 3
 # By how much less sharp than that a face with such an edge may look, when its normals are in single precision.
 _SLACK = 1e-3
 # An edge is split where the surface is further from it than this share of a cell, and not next to its ends.
-_OFF = 0.02
+_OFF = 0.025
 _ASIDE = 0.05
 # No edge of a face is looked at whose middle is nearer to the surface than so many quanta.
 _ROUGH = _OFF / 10 / QUANTUM
