@@ -99,14 +99,15 @@ def _mesh(scene: Scene, resolution: int, tell: Progress, target_faces: int | Non
     _must_exist(scene, where)
     _must_be_near(where)
     mirrored = mirror_axes(terms, where)
-    longest = float(np.max(where.size))
     reducing = target_faces is not None or tolerance is not None
     meshed = _FIRST if reducing else _LAST
-    balance = Balance.of(make_grid(where, resolution, mirrored), mirrored, longest)
+    balance = Balance.of(make_grid(where, resolution, mirrored), mirrored, float(np.max(where.size)))
     weld = _welded(scene, terms, balance, meshed, tell)
-    if longest > _LOOSE * weld.longest(mirrored):
-        finer = ceil(resolution * min(longest / weld.longest(mirrored), _FINER))
-        balance = Balance.of(make_grid(where, finer, mirrored), mirrored, weld.longest(mirrored))
+    longest = weld.longest(mirrored)
+    wider = float(np.max(where.size)) / longest
+    if wider > _LOOSE:
+        del weld  # makes room for the next
+        balance = Balance.of(make_grid(where, ceil(resolution * min(wider, _FINER)), mirrored), mirrored, longest)
         weld = _welded(scene, terms, balance, meshed, tell)
 
     def finishing(done: float) -> None:
