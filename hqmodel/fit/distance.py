@@ -12,8 +12,10 @@ from .bodies import FLIP, Array, Bodies, Indices
 
 # |h| nearer to 0 than this is held there: an exponent below 1 has an infinite slope at 0.
 _NEAR = 1e-7
-# Steps to a foot after the first, and how short the last is to be.
-_STEPS, _THERE = 5, 1e-3
+# Steps to a foot after the first, and how short the last is to be: so much, or that share of the way if it is more.
+_STEPS, _THERE, _NEARLY = 5, 1e-3, 0.05
+# Points further than this outside several bodies are asked which of them is nearest.
+_FAR = 0.005
 # Newton's steps to the gauge, and how short the last is: its square, times an exponent, is what is still missing.
 _ROUNDS, _SHORT = 8, 1e-5
 # ln of the largest |h|^gamma.
@@ -34,17 +36,18 @@ class Measured:
     def __init__(self, bodies: Bodies, points: Array, side: Array | None = None) -> None:
         self._bodies, every = bodies, bodies.images()
         look = _look(every, points)
-        sense, step = np.sign(look.distance), (look.distance * look.normal).T
-        foot, last = points - step, np.abs(look.distance)
+        sense, step = np.sign(look.distance), look.steps()
+        foot, last = points - step, np.linalg.norm(step, axis=1)
+        there = np.maximum(_THERE, _NEARLY * last)
         if side is not None:
             last[side * sense > 0] = 0.0
         for _ in range(_STEPS):
-            far = np.flatnonzero(last > _THERE)
+            far = np.flatnonzero(last > there)
             if not len(far):
                 break
-            look = _look(every, foot[far])
-            foot[far] -= (look.distance * look.normal).T
-            last[far] = np.abs(look.distance)
+            step = _look(every, foot[far]).steps()
+            foot[far] -= step
+            last[far] = np.linalg.norm(step, axis=1)
         self._foot = foot
         self.distance = np.minimum(np.linalg.norm(points - foot, axis=1), FARTHEST) * sense
 
@@ -102,15 +105,7 @@ class _Gauge:
             stretch = np.sum(weight * (log_h[first:] - log_norm), axis=0)  # d ln norm by ln g
             log_h = np.concatenate([log_h[:first], log_norm[None]])
         gamma = bodies.gamma[: len(log_h), None]
-        log_gauge = np.max(log_h, axis=0)
-        for _ in range(_ROUNDS):  # Newton's steps on a convex function, from below
-            power = np.exp(gamma * (log_h - log_gauge))
-            total = np.sum(power, axis=0)
-            step = np.log(total) * total / np.sum(gamma * power, axis=0)
-            log_gauge += step
-            if np.max(step) < _SHORT:
-                break
-        self.log_gauge = log_gauge
+        self.log_gauge = log_gauge = _log_gauge(log_h, gamma)
         pull = gamma * np.exp(gamma * (log_h - log_gauge))
         pull /= -np.sum(pull, axis=0)
         self.by_gamma = pull * (log_h - log_gauge)
@@ -120,6 +115,10 @@ class _Gauge:
         self.by_h = pull / size * np.sign(h)
         self.length, self.normal = _directed(bodies.normal.T @ self.by_h)
         self.distance = np.clip(-np.expm1(-log_gauge) / self.length, -FARTHEST, FARTHEST)
+
+    def steps(self) -> Array:
+        """How far (N, 3) the points are off the surface, to first order."""
+        return (self.distance * self.normal).T
 
     def rows(self, points: Array, hardness: bool) -> Array:
         """-dln G by normals, offsets and ln gamma, one row each."""
@@ -135,14 +134,16 @@ class _Blend:
         size = np.maximum(np.abs(h), _NEAR)
         self.log_h = np.log(size)
         self.power = np.exp(np.minimum(bodies.gamma[:, None] * self.log_h, _MOST))
-        total = bodies.summed @ self.power
-        self.t = bodies.hardness[:, None] * (1.0 - total)
+        self.steep = bodies.gamma[:, None] * self.power / size * np.sign(h)  # d|h|^gamma by h
+        self.total = bodies.summed @ self.power
+        self.rate = (bodies.summed * bodies.gamma) @ self.power / np.maximum(self.total, 1e-300)
+        self.t = bodies.hardness[:, None] * (1.0 - self.total)
         ratio = self._weigh()
         pull = self.share * bodies.hardness[:, None]
         self.by_power = -pull[bodies.owner]  # dL by |h|^gamma
-        self.by_h = self.by_power * bodies.gamma[:, None] * self.power / size * np.sign(h)
+        self.by_h = self.by_power * self.steep
         self.length, self.normal = _directed(bodies.normal.T @ self.by_h)
-        self.distance = self._distance(ratio, total, np.abs(pull))
+        self.distance = self._distance(ratio, np.abs(pull))
 
     def _weigh(self) -> Array:
         """L (N,), and in `share` its derivatives by T: each term's part of P, or less its part of N."""
@@ -158,22 +159,60 @@ class _Blend:
             sides.append(top + np.log(whole))
         return sides[0] - sides[1]
 
-    def _distance(self, ratio: Array, total: Array, pull: Array) -> Array:
-        """(H - H^(1 - 1/gamma)) gamma beta / |grad L|, H = 1 - L / beta; beta and gamma of what adds, by its share."""
-        bodies = self.bodies
-        adds = bodies.sign > 0
+    def _distance(self, ratio: Array, pull: Array) -> Array:
+        """That of the H that L makes, 1 - L / beta; beta and gamma are of what adds, by its share."""
+        adds = self.bodies.sign > 0
         hard = np.sum(pull[adds], axis=0)
-        rate = (bodies.summed * bodies.gamma) @ self.power / np.maximum(total, 1e-300)
-        steep = np.sum((pull * rate)[adds], axis=0) / hard
-        h_sum = np.maximum(1.0 - ratio / hard, 1e-9)
-        with np.errstate(over="ignore"):
-            away = (h_sum - h_sum ** (1.0 - 1.0 / steep)) * steep * hard / self.length
-        return np.clip(away, -FARTHEST, FARTHEST)
+        gamma = np.sum((pull * self.rate)[adds], axis=0) / hard
+        return _away(1.0 - ratio / hard, gamma, self.length / hard)
+
+    def steps(self) -> Array:
+        """How far (N, 3) the points are off the surface, to first order.
+
+        Where all bodies add, it is no further than the nearest of the surfaces they have alone, though where that body is the
+        weaker the blend's slope leads to another.
+        """
+        result = (self.distance * self.normal).T
+        if np.any(self.bodies.sign < 0):
+            return result
+        far = np.flatnonzero(self.distance > _FAR)
+        steep = self.steep[:, far]
+        slope = np.stack([self.bodies.summed @ (along[:, None] * steep) for along in self.bodies.normal.T], axis=2)
+        length = np.maximum(np.linalg.norm(slope, axis=2), 1e-12)
+        away = _away(self.total[:, far], self.rate[:, far], length)
+        nearest = np.argmin(away, axis=0), np.arange(len(far))
+        nearer = away[nearest] < self.distance[far]
+        result[far[nearer]] = ((away / length)[nearest][:, None] * slope[nearest])[nearer]
+        return result
 
     def rows(self, points: Array, hardness: bool) -> Array:
         """dL by normals, offsets, ln gamma (and ln hardness), one row each."""
         rows = _rows(self.by_h, self.by_power * self.bodies.gamma[:, None] * self.power * self.log_h, points)
         return np.concatenate([rows, self.share * self.t]) if hardness else rows
+
+
+def _log_gauge(log_h: Array, gamma: Array) -> Array:
+    """ln G (N,), at which the sum of (|h|/G)^gamma is 1, of ln |h| (S, N) and exponents (S, 1): Newton's on a convex function."""
+    sums = np.hstack([np.ones_like(gamma), gamma]).T
+    least = np.max(log_h, axis=0)
+    result = np.maximum(least, 0.0)  # most points lie near the surface
+    left = np.arange(len(result))
+    for _ in range(_ROUNDS):
+        total, slope = sums @ np.exp(gamma * (log_h - result[left]))
+        step = np.log(total) * total / slope
+        result[left] = np.maximum(result[left] + step, least[left])
+        far = np.abs(step) > _SHORT
+        if not far.any():
+            break
+        left, log_h = left[far], log_h[:, far]
+    return result
+
+
+def _away(h_sum: Array, gamma: Array, slope: Array) -> Array:
+    """How far it is to H = 1, (H - H^(1 - 1/gamma)) gamma / |grad H|."""
+    h_sum = np.maximum(h_sum, 1e-9)
+    with np.errstate(over="ignore"):
+        return np.clip((h_sum - h_sum ** (1.0 - 1.0 / gamma)) * gamma / slope, -FARTHEST, FARTHEST)
 
 
 def _norm(log_h: Array, inner: float) -> tuple[Array, Array]:

@@ -187,7 +187,7 @@ def _with_best_group(task: _Task, best: Solution) -> Solution | None:
     """With the most promising of all groups, where there is none yet and anything is left to gain."""
     if best.bodies.grouped or (task.found(best) and best.noise.outliers < _FEW):
         return None
-    tried = [task.solved(bodies, task.coarse, 4) for bodies in groupings(best.bodies)]
+    tried = [task.solved(bodies, task.coarse, 2) for bodies in groupings(best.bodies)]
     tried.sort(key=lambda solution: _criterion(solution, task.coarse))
     refined = [task.solved(solution.bodies, task.middle, 25, solution.noise) for solution in tried[:_GROUPS]]
     return min(refined, key=lambda solution: _criterion(solution, task.middle))
@@ -209,7 +209,7 @@ def groupings(bodies: Bodies) -> list[Bodies]:
 def _with_best_strip(task: _Task, best: Solution) -> Solution | None:
     """The best of several ways to add a strip, if there are any."""
     part = task.cloud.part(MIDDLE)
-    tried = [task.solved(bodies, task.middle, 8) for bodies in with_one_more(part.only(part.trusted), best)]
+    tried = [task.solved(bodies, task.middle, 5) for bodies in with_one_more(part.only(part.trusted), best)]
     if not tried:
         return None
     trial = min(tried, key=lambda solution: _criterion(solution, task.middle))

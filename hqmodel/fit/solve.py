@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .bodies import Array, Bodies
-from .distance import Measured, distances
+from .distance import Measured
 
 _FEWEST = 1e-3
 # The share of the diagonal that is added to it at first, and steps that are tried in a round.
@@ -117,10 +117,9 @@ class Solution:
         return 2 * self.cost * points / count + self.bodies.size * log(points)
 
 
-def first_noise(bodies: Bodies, evidence: Evidence, floor: float) -> Noise:
+def first_noise(evidence: Evidence, miss: Array, floor: float) -> Noise:
     """The mixture to begin with: as wide as most distances are, so that nothing is taken for an outlier too soon."""
-    miss = np.abs(distances(bodies, evidence.surface) - evidence.away)
-    return Noise(max(float(np.quantile(miss, 0.7)), _WIDE, floor), min(0.05, evidence.outliers), evidence.span)
+    return Noise(max(float(np.quantile(np.abs(miss), 0.7)), _WIDE, floor), min(0.05, evidence.outliers), evidence.span)
 
 
 def solved(
@@ -138,11 +137,11 @@ def solved(
     Of the free numbers (`bodies.size`,) only those `moving` do, if it is told.
     """
     moving = np.ones(bodies.size, dtype=bool) if moving is None else moving
-    noise = first_noise(bodies, evidence, floor) if noise is None else noise
     count = len(evidence.surface)
     damping, still = _DAMPING, 0
     measured = evidence.measured(bodies)
     miss = evidence.misses(measured.distance)
+    noise = first_noise(evidence, miss[:count], floor) if noise is None else noise
     for _ in range(rounds):
         pause()
         noise = noise.updated(miss[:count], floor, evidence.outliers)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from hqmodel.field import Terms, log_ratio
-from hqmodel.fit.bodies import Bodies
+from hqmodel.fit.bodies import Bodies, joined
 from hqmodel.fit.cloud import Frame
 from hqmodel.fit.distance import FARTHEST, Measured, distances, normals
 from hqmodel.fit.scene import scene_of
@@ -77,6 +79,17 @@ def test_the_derivatives_are_those_of_the_distance(bodies: Bodies) -> None:
         ahead, behind = distances(bodies.moved(step), points), distances(bodies.moved(-step), points)
         error = np.abs((ahead - behind) / 2e-6 - row)
         assert np.quantile(error, 0.9) < 1e-4 * (1 + np.abs(row).max()), number
+
+
+def test_several_bodies_are_no_further_than_the_nearest_of_them() -> None:
+    soft, hard = (
+        replace(lone(half, 2.0), offset=np.array([at, 0.0, 0.0]), hardness=np.array([hardness]), widest=np.ones((1, 3)))
+        for half, at, hardness in ((0.3, 1.0, 1.0), (0.2, -1.2, 30.0))
+    )
+    points = np.random.default_rng(1).uniform(-0.8, 0.8, size=(1000, 3))
+    nearest = np.minimum(distances(soft, points), distances(hard, points))
+    outside = nearest > 0.0
+    assert np.all(distances(joined([soft, hard]), points)[outside] < nearest[outside] + 1e-6)
 
 
 def test_a_group_of_like_exponents_changes_nothing() -> None:
