@@ -27,6 +27,8 @@ _OUTLIERS = 0.01
 _ALONE, _BEST, _TOGETHER, _SETTLED = 10, 3, 6, 20
 # How far around its points a changed body is looked at: so many times as far as they reach, and a little.
 _AROUND, _BESIDE = 1.3, 0.03
+# Numbers of parts that are made as good as they get before there are more: so with more none is worse.
+_STAGES = 8, 16, 32
 # Ways that a strip is tried in.
 _STRIPS = 4
 # Exchanging parts goes on while it lowers the criterion by so much.
@@ -100,15 +102,19 @@ def several_bodies(
     task = _Task(cloud, outside, inside, symmetric, strips, floor, tell)
     steps = [Step("1 part to begin with", 0.0)]
     best = task.solved(round_box(folded(task.sample(_TRIED).points, symmetric), symmetric), task.small, 20)
-    best = _with_strips(task, _exchanged(task, _grown(task, best, parts, steps), steps), steps)
+    done = 0.0
+    for most in (*(count for count in _STAGES if count < parts), parts):
+        before, done = done, 0.9 * (most / parts) ** 1.5
+        stage = replace(task, tell=tell.within(before, done))
+        best = _with_strips(stage, _exchanged(stage, _grown(stage, best, most, steps), steps), steps)
     tell(0.9, "Refining")
     return task.solved(best.bodies, task.evidence(_REFINED), 30, best.noise), steps
 
 
 def _grown(task: _Task, best: Solution, parts: int, steps: list[Step]) -> Solution:
     """With parts split and added, as many as are wanted or gain anything."""
-    for count in range(1, parts):
-        task.tell(0.45 * (count / parts) ** 2, f"{count} {'part' if count == 1 else 'parts'}")
+    for count in range(len(best.bodies), parts):
+        task.tell(0.5 * (count / parts) ** 2, f"{count} {'part' if count == 1 else 'parts'}")
         trial, what = _with_one_part_more(task, best)
         gain = task.criterion(best) - task.criterion(trial)
         if gain <= WORTH:
@@ -122,7 +128,7 @@ def _exchanged(task: _Task, best: Solution, steps: list[Step]) -> Solution:
     """With the least part given up for another elsewhere, as long as that gains much."""
     count = len(best.bodies)
     for turn in range(count if count > 1 else 0):
-        task.tell(0.45 + 0.2 * turn / count, "Exchanging parts")
+        task.tell(0.5 + 0.2 * turn / count, "Exchanging parts")
         rest, before = _with_least_dropped(task, best)
         trial, what = _with_one_part_more(task, rest)
         gain = task.criterion(best) - task.criterion(trial)
@@ -166,7 +172,7 @@ def _with_strips(task: _Task, best: Solution, steps: list[Step]) -> Solution:
     sample = task.sample(_TRIED)
     growing = list(range(len(best.bodies)))
     while growing:
-        task.tell(0.9 - 0.25 * len(growing) / len(best.bodies), "Adding strips")
+        task.tell(1.0 - 0.3 * len(growing) / len(best.bodies), "Adding strips")
         owner = np.argmax(strengths(best.bodies, sample.points), axis=0)
         for body in growing.copy():
             own = _own_side(sample, owner == body, bool(best.bodies.mirrored[body]))

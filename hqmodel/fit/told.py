@@ -21,3 +21,7 @@ class Told:
     def again(self) -> None:
         """The same as last: a step of the work is done."""
         self._tell(*self._last)
+
+    def within(self, low: float, high: float) -> Told:
+        """What tells of a stage of the work, the share of it done being between these shares of the whole."""
+        return Told(lambda share, doing: self(low + (high - low) * share, doing))
