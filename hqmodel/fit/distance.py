@@ -195,7 +195,7 @@ def _log_gauge(log_h: Array, gamma: Array) -> Array:
     """ln G (N,), at which the sum of (|h|/G)^gamma is 1, of ln |h| (S, N) and exponents (S, 1): Newton's on a convex function."""
     sums = np.hstack([np.ones_like(gamma), gamma]).T
     least = np.max(log_h, axis=0)
-    result = np.maximum(least, 0.0)  # most points lie near the surface
+    result = np.where(least > -1.0, np.maximum(least, 0.0), least)  # most points lie near the surface
     left = np.arange(len(result))
     for _ in range(_ROUNDS):
         total, slope = sums @ np.exp(gamma * (log_h - result[left]))

@@ -59,9 +59,9 @@ def test_a_ball_is_as_far_as_it_is() -> None:
     assert np.allclose(distances(lone(0.4, 2.0), points), np.clip(away, -FARTHEST, FARTHEST), atol=1e-9)
 
 
-def test_a_sharp_box_is_as_far_beyond_its_edges_as_they_are() -> None:
-    points = np.array([(0.4, 0.4, 0.0), (0.4, 0.0, 0.0), (0.1, 0.25, 0.0), (0.0, 0.0, 0.31)])
-    expected = [0.1 * 2**0.5, 0.1, -0.05, 0.01]
+def test_a_sharp_box_is_as_far_beyond_its_edges_and_from_its_middle_as_they_are() -> None:
+    points = np.array([(0.4, 0.4, 0.0), (0.4, 0.0, 0.0), (0.1, 0.25, 0.0), (0.0, 0.0, 0.31), (1e-3, 1e-5, 0.0)])
+    expected = [0.1 * 2**0.5, 0.1, -0.05, 0.01, -0.299]
     assert np.allclose(distances(lone(0.3, 200.0), points), expected, atol=5e-3)
 
 
