@@ -209,7 +209,7 @@ def groupings(bodies: Bodies) -> list[Bodies]:
 def _with_best_strip(task: _Task, best: Solution) -> Solution | None:
     """The best of several ways to add a strip, if there are any."""
     part = task.cloud.part(MIDDLE)
-    tried = [task.solved(bodies, task.middle, 5) for bodies in with_one_more(part.only(part.trusted), best)]
+    tried = [task.solved(bodies, task.middle, 8) for bodies in with_one_more(part.only(part.trusted), best)]
     if not tried:
         return None
     trial = min(tried, key=lambda solution: _criterion(solution, task.middle))
