@@ -23,7 +23,7 @@ from .lines import bounding_lines
 from .plane import Plane
 from .radial import RadialSolution, approximate_radii, radial_solution
 from .rays import first_hits
-from .region import Region, reaches, region
+from .region import Region, reaches, region, sharing
 from .solvers import Evolved, Lattice, lattice_search, normal_evolution
 from .starlike import NotStarShaped, star_centre
 from .symmetry import mirror_axes
@@ -74,6 +74,7 @@ __all__ = [
     "rotation_matrix",
     "segment_bounds",
     "shaping_strip",
+    "sharing",
     "slice_range",
     "srgb_to_linear",
     "star_centre",

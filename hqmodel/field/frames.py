@@ -12,7 +12,7 @@ import numpy as np
 
 from hqmodel.model import Scene
 
-from .region import reaches
+from .region import reaches, sharing
 from .terms import Array, Terms
 
 # The six planes of four-space, each as the columns it mixes.
@@ -60,7 +60,7 @@ def slice_range(scene: Scene) -> tuple[float, float] | None:
     """
     terms = Terms.of(scene.changed(slice=0.0))
     rate = Terms.of(scene.changed(slice=1.0)).offset - terms.offset
-    reach = reaches(terms, np.log(max(1, int(np.count_nonzero(terms.positive)))))
+    reach = reaches(terms, sharing(terms))
     ranges = []
     for k in np.flatnonzero(terms.positive):
         own = terms.term_of_strip == k

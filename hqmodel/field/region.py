@@ -79,6 +79,11 @@ def region(scene: Scene, terms: Terms | None = None, loosely: bool = False) -> R
     return Region(hull[0], hull[1], cut=flat or not bounded or scene.bounds is not None, bounded=bounded)
 
 
+def sharing(terms: Terms) -> float:
+    """The margin for `reaches` within which, wherever F >= w, one of the K adding terms is: it alone comes to w / K."""
+    return float(np.log(max(1, int(np.count_nonzero(terms.positive)))))
+
+
 def reaches(terms: Terms, margin: float) -> Array:
     """(S,) the largest |h_a| where the strip's term alone comes to exp(-margin) of the level.
 
@@ -98,8 +103,7 @@ def reaches(terms: Terms, margin: float) -> Array:
 def _start(terms: Terms, flat: bool) -> tuple[Array, bool]:
     """A box that holds the body for certain, (2, 3), or one so large that what touches it has no end."""
     boxes = []
-    # where F >= w, one of K adding terms alone comes to w / K
-    reach = reaches(terms, np.log(max(1, int(np.count_nonzero(terms.positive)))))
+    reach = reaches(terms, sharing(terms))
     for k in np.flatnonzero(terms.positive):
         own = terms.term_of_strip == k
         if np.any(reach[own] < 0):

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from hqmodel.field import Terms, log_ratio, near_linear_gradient, near_linear_single, reaches
+from hqmodel.field import Terms, log_ratio, near_linear_gradient, near_linear_single, reaches, sharing
 
 from .cull import relevant
 from .grid import ALONG, Grid
@@ -122,7 +122,7 @@ class Sampling:
         terms, steps = self._here, self._grid.steps
         gradient = terms.normal * steps
         constant = terms.offset + terms.normal @ self._grid.points(np.ones((1, 3), dtype=np.int64))[0] - np.sum(gradient, axis=1)
-        room = reaches(terms, np.log(max(1, int(np.count_nonzero(self._terms.positive)))))  # with others' help
+        room = reaches(terms, sharing(self._terms))
         with np.errstate(divide="ignore", invalid="ignore"):
             thick = 2 * reaches(terms, 0.0) / np.max(np.abs(gradient), axis=1)
         thin = thick < _THIN
