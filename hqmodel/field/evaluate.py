@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .powers import CEILING, group_powers, over_runs, power, scaled, strip_functions, term_sums
+from .powers import CEILING, group_powers, lattice_functions, over_runs, power, scaled, strip_functions, term_sums
 from .terms import HUGE, Array, Indices, Terms
 
 # Strips times points worked on at once: what stays in a processor's cache.
@@ -43,6 +43,15 @@ def log_ratio(terms: Terms, points: ArrayLike) -> Array:
     Infinite only where the scene has nothing that adds, or nothing to hold against it: neither level nor carving shape.
     """
     return _by_chunk(terms, points, lambda t, p: log_balance(t, exponents(t, _sums(t, p))))
+
+
+def lattice_log_ratio(terms: Terms, x: Array, y: Array, z: Array) -> Array:
+    """The same, to the last bit, at lattices of points x[i, p], y[j, p], z[k, p], of (a, n), (b, n) and (c, n): (a, b, c, n)."""
+    shape = len(x), len(y), len(z), x.shape[1]
+    if not len(terms):
+        return np.full(shape, log_ratio(terms, np.zeros(3)))
+    u = lattice_functions(terms, x, y, z)
+    return log_balance(terms, exponents(terms, _sums_of(terms, np.abs(u, out=u)))).reshape(shape)
 
 
 def gradient(terms: Terms, points: ArrayLike) -> Array:
@@ -190,7 +199,11 @@ def log_sum(t: Array) -> Array:
 
 
 def _sums(terms: Terms, points: Array) -> Array:
-    u = np.abs(strip_functions(terms, points))
+    h = strip_functions(terms, points)
+    return _sums_of(terms, np.abs(h, out=h))
+
+
+def _sums_of(terms: Terms, u: Array) -> Array:
     return term_sums(terms, group_powers(terms, u), u)
 
 

@@ -23,11 +23,23 @@ def strip_functions(terms: Terms, points: Array) -> Array:
     """
     x, y, z = np.clip(points.T, -HUGE, HUGE, out=np.empty(points.T.shape))
     h: Array = terms.normal[:, 0, None] * x
+    h += terms.offset[:, None]
     part = terms.normal[:, 1, None] * y
     h += part
     h += np.multiply(terms.normal[:, 2, None], z, out=part)
-    h += terms.offset[:, None]
     return h
+
+
+def lattice_functions(terms: Terms, x: Array, y: Array, z: Array) -> Array:
+    """The same, to the last bit, at lattices of points x[i, p], y[j, p], z[k, p], of (a, n), (b, n) and (c, n): (S, a b c n).
+
+    It takes little more than one addition each.
+    """
+    (nx, ny, nz), (x, y, z) = terms.normal.T[..., None, None], (np.clip(way, -HUGE, HUGE) for way in (x, y, z))
+    h = nx * x + terms.offset[:, None, None]
+    h = h[:, :, None] + (ny * y)[:, None]
+    h = h[:, :, :, None] + (nz * z)[:, None, None]
+    return np.asarray(h.reshape(len(h), -1))
 
 
 def group_powers(terms: Terms, u: Array) -> Array:

@@ -154,7 +154,8 @@ def _pieces(scene: Scene, terms: Terms, balance: Balance, tell: Callable[[float]
     def waiting() -> None:
         tell(share)
 
-    found = _in_order(partial(blocks_of, terms, balance.grid), list(tiles(terms, balance.grid)), waiting, threading.Event())
+    every, size = tiles(terms, balance.grid)
+    found = _in_order(partial(blocks_of, terms, balance.grid, size), list(every), waiting, threading.Event())
     blocks = np.concatenate([np.empty((0, 3), dtype=np.int32), *found], dtype=np.int32, casting="same_kind")
     ends = range(RUN, len(blocks) + RUN, RUN)
     runs: list[Blocks] = [blocks[end - RUN : end] for end in ends]

@@ -13,22 +13,23 @@ from .grid import BLOCK, Grid
 
 Blocks = NDArray[np.integer[Any]]
 
-# Cells along a side of a tile: what one job looks for blocks in, with the terms that matter there.
-TILE = 128
+# Cells along a side of a tile, where blocks are looked for at once, with the terms that matter there: larger for a single one.
+_TILE, _WHOLE = 128, 512
 
 
-def tiles(terms: Terms, grid: Grid) -> Blocks:
-    """First nodes (n, 3) of the tiles that the surface may pass through, neighbours mostly in a row."""
-    size = TILE
+def tiles(terms: Terms, grid: Grid) -> tuple[Blocks, int]:
+    """First nodes (n, 3) of the tiles that the surface may pass through, neighbours mostly in a row, and their size in cells."""
+    tile = _TILE if len(terms) > 1 else _WHOLE
+    size = tile
     while size < max(len(nodes) for nodes in grid.nodes):
         size *= 2
-    return _descend(terms, grid, np.zeros((1, 3), dtype=np.int64), size, TILE)
+    return _descend(terms, grid, np.zeros((1, 3), dtype=np.int64), size, tile), tile
 
 
-def blocks_of(terms: Terms, grid: Grid, tile: Blocks) -> Blocks:
-    """First nodes (n, 3) of the blocks of one tile that the surface may pass through, neighbours mostly in a row."""
+def blocks_of(terms: Terms, grid: Grid, size: int, tile: Blocks) -> Blocks:
+    """First nodes (n, 3) of the blocks of a tile of that size that the surface may pass through, neighbours mostly in a row."""
     tile = tile.reshape(1, 3)
-    return _descend(relevant(terms, grid, tile, TILE), grid, tile, TILE, BLOCK)
+    return _descend(relevant(terms, grid, tile, size), grid, tile, size, BLOCK)
 
 
 def relevant(terms: Terms, grid: Grid, cubes: Blocks, size: int) -> Terms:

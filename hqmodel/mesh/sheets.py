@@ -59,7 +59,7 @@ class _Edges(NamedTuple):
 def moves(of_block: NDArray[np.int32], samples: Samples, named: Named, sampling: Sampling) -> Moves | None:
     """The moves that lead nodes into what is between them; None where nothing can be.
 
-    `of_block` (n, 125) tells which of the `samples` (p,) belong to each block's nodes in the order of their coordinates, and
+    `of_block` (125, n) tells which of the `samples` (p,) belong to each block's nodes in the order of their coordinates, and
     `named` the numbers (m, 3) of the nodes at places (m,).
     """
     parts = list(_in_thin_strips(of_block, samples, named, sampling))
@@ -80,11 +80,11 @@ def moves(of_block: NDArray[np.int32], samples: Samples, named: Named, sampling:
 
 
 class _Lines:
-    """The nodes of blocks, given by their places (n, 125), as lines along each axis; `samples` (p,) by place."""
+    """The nodes of blocks, given by their places (125, n), as lines along each axis; `samples` (p,) by place."""
 
     def __init__(self, of_block: NDArray[np.int32], samples: Samples) -> None:
-        self.places = of_block.T.reshape(*_CORNER, -1)
-        values = np.ascontiguousarray(samples.take(of_block).T).reshape(*_CORNER, -1)
+        self.places = of_block.reshape(*_CORNER, -1)
+        values = samples.take(self.places)
         self.size, self.outside = np.abs(values), values < 0
 
     def along(self, axis: int) -> list[NDArray[Any]]:
@@ -121,7 +121,7 @@ def _at_peaks(of_block: NDArray[np.int32], samples: Samples, named: Named, sampl
 
 def _in_thin_strips(of_block: NDArray[np.int32], samples: Samples, named: Named, sampling: Sampling) -> Iterator[Found]:
     """The middle planes of thin strips: the field may tell nothing of those a cell away."""
-    first = named(of_block[:, 0]).astype(float)
+    first = named(of_block[0]).astype(float)
     middle = first + BLOCK / 2
     for strip in sampling.thin_strips():
         crossed = np.flatnonzero(np.abs(strip.of(middle)) < np.sum(np.abs(strip.gradient)) * BLOCK / 2)
@@ -130,7 +130,7 @@ def _in_thin_strips(of_block: NDArray[np.int32], samples: Samples, named: Named,
             continue
         i, j, k = np.multiply.outer(strip.gradient, _STEPS)
         ahead = i[:, None, None, None] + j[:, None, None] + k[:, None] + strip.of(first[crossed]) > 0
-        edges = _Lines(of_block[crossed], samples).edges(partial(_changes, ahead))
+        edges = _Lines(of_block[:, crossed], samples).edges(partial(_changes, ahead))
         node = named(edges.start).astype(float)
         share = np.clip(-strip.of(node) / strip.gradient[edges.axis], _APART, 1 - _APART)
         node[np.arange(len(node)), edges.axis] += share

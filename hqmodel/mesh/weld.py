@@ -77,10 +77,8 @@ class Weld:
 
     def longest(self, mirrored: tuple[int, ...]) -> float:
         """The longest side of what is there, with its images on the other side of the planes `mirrored`."""
-        vertices = self._columns["vertices"].rows
-        low, high = vertices.min(axis=0), vertices.max(axis=0)
-        low[list(mirrored)] = -high[list(mirrored)]
-        return float(np.max(high - low))
+        ways = self._columns["vertices"].rows.T
+        return max(float(x.max() - (-x.max() if i in mirrored else x.min())) for i, x in enumerate(ways))
 
     def take(self, name: str) -> NDArray[Any]:
         """A part of the pieces, all in one, which is given away."""
