@@ -7,7 +7,6 @@ lie on, never by rounding coordinates.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +28,7 @@ _AMONG_ALL = OWN @ _STRIDES - np.arange(len(OWN))
 
 @dataclass(frozen=True, eq=False)
 class Patch:
-    """Triangles and the edges that their vertices lie on, each once.
+    """Triangles and the edges that their vertices lie on, each once, in the order of their axes.
 
     `node` (V, 3) and `axis` (V,): the first node of the grid's edge and the axis that it runs along; `AT_NODE` for the node
     itself, where an edge without length leaves a cut. `ends` (V, 2): the samples at both nodes, positive inside. `aside`
@@ -58,7 +57,7 @@ def extract(blocks: Blocks, sampling: Sampling) -> Patch | None:
     nodes = Nodes(blocks)
     samples = nodes.sampled(sampling)
     nodes.into_sheets(samples, sampling)
-    inside = (samples > 0).view(np.uint8).take(nodes.of_block)
+    inside = nodes.by_block((samples > 0).view(np.uint8))
     case = _cases(inside)
     cells, first = _among_all((case - np.uint8(1)) < 254)
     if not len(cells):
@@ -135,7 +134,7 @@ def _without_length(patch: Patch, leaves: NDArray[np.bool_]) -> Patch:
         return patch
     node = patch.node + (np.isneginf(patch.ends[:, :1]) & (patch.axis[:, None] == np.arange(3)))
     axis = np.where(leaves, AT_NODE, patch.axis)
-    _, kept, number = np.unique(np.column_stack([node, axis]), axis=0, return_index=True, return_inverse=True)
+    _, kept, number = np.unique(np.column_stack([axis, node]), axis=0, return_index=True, return_inverse=True)
     faces = number.reshape(-1).astype(np.int32)[patch.faces]
     a, b, c = faces.T
     with_length = (a != b) & (b != c) & (c != a)
@@ -155,7 +154,8 @@ def _joined(
     """
     unclear = np.flatnonzero(AMBIGUOUS.take(case))
     which = [unclear[AMBIGUOUS[case[unclear]] >> face & 1 > 0] for face in range(len(FACES))]
-    corners = [first[rows] + (CORNERS[list(ring)] @ _STRIDES)[:, None] * nodes.count for ring, rows in zip(FACES, which, strict=True)]
+    rings = CORNERS[np.array(FACES)] @ _STRIDES * nodes.count
+    corners = [first[rows] + ring[:, None] for ring, rows in zip(rings, which, strict=True)]
     seen = nodes.of_block.reshape(-1)[np.concatenate(corners, axis=1)]
     a, b, c, d = seen
     a, c, b, d = np.where(samples.take(a) > 0, [a, c, b, d], [b, d, a, c])

@@ -45,19 +45,20 @@ class Nodes:
         slot[which[:, 0]] = np.arange(count)
         absent = np.flatnonzero(slot < 0)
         slot[absent] = np.arange(count, len(every))
-        self._beside = np.ascontiguousarray(slot[which].T)  # of each block's corners the block there, or one that is absent
-        index = self._beside[_CORNER] + _AS_OWN[:, None] * len(every)
+        self._beside = slot.take(which.T)  # of each block's corners the block there, or one that is absent
+        far = self._beside[_CORNER[_FAR]] + (_AS_OWN[_FAR] * len(every))[:, None]
         on_rim = np.zeros((len(OWN), len(every)), dtype=bool)
-        on_rim.reshape(-1)[index[_FAR]] = True
+        on_rim.reshape(-1)[far] = True
         on_rim[:, :count] = False
         rim = np.flatnonzero(on_rim)
+        own, cube = np.divmod(rim, len(every))
+        first = every[absent] // ALONG[:, None] % ALONG[1] * BLOCK
         place = np.empty(on_rim.shape, dtype=np.int32)
         place[:, :count] = np.arange(owned).reshape(-1, count)
         place.reshape(-1)[rim] = np.arange(owned, owned + len(rim))
-        own, cube = np.divmod(rim, len(every))
-        first = every[absent] // ALONG[:, None] % ALONG[1] * BLOCK
         self.count, self.owned = count, owned
-        self.of_block = place.reshape(-1).take(index)
+        self.of_block = np.empty((len(ALL), count), dtype=np.int32)
+        self.of_block[~_FAR], self.of_block[_FAR] = place[:, :count], place.reshape(-1).take(far)
         self._first = np.ascontiguousarray(blocks.T, dtype=np.int64)
         self._rim = first.take(cube - count, axis=1) + OWN.T.take(own, axis=1)
         self._shift: Array | None = None  # of each place, (places, 3), in cells
@@ -65,6 +66,13 @@ class Nodes:
 
     def __len__(self) -> int:
         return self.owned + self._rim.shape[1]
+
+    def by_block(self, values: NDArray[np.uint8]) -> NDArray[np.uint8]:
+        """What is told of places (p,), for all nodes of each block, (125, n)."""
+        result = np.empty(self.of_block.shape, dtype=np.uint8)
+        result[~_FAR] = values[: self.owned].reshape(len(OWN), -1)
+        result[_FAR] = values.take(self.of_block[_FAR])
+        return result
 
     def named(self, places: NDArray[np.integer[Any]]) -> Numbers:
         """The nodes (n, 3) at places (n,)."""

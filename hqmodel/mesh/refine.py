@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -38,7 +39,7 @@ def place_vertices(
     still: Callable[[], None],
 ) -> tuple[Array, Array]:
     """World positions (V, 3), on the surface, of the vertices on the grid's edges from `node` (V, 3) along `axis` (V,), and the
-    near-linear field's gradients there, (V, 3). `ends` and `aside` are a patch's.
+    near-linear field's gradients there, (V, 3). `ends`, `aside` and their order, by axis, are a patch's.
 
     Exactly in the planes of the grid that their edges lie in at a mirror plane or a cut. `still` is called now and then;
     whatever it raises ends the work.
@@ -77,7 +78,10 @@ def _placed(
 
 
 class _Edges(NamedTuple):
-    """Edges of the grid: from `start` (n, 3) along `axis` (n,), so `long` (n,); `ends` (n, 2) are the samples at both ends."""
+    """Edges of the grid: from `start` (n, 3) along `axis` (n,), so `long` (n,); `ends` (n, 2) are the samples at both ends.
+
+    They are in the order of their axes.
+    """
 
     start: Array
     axis: NDArray[np.int64]
@@ -86,11 +90,8 @@ class _Edges(NamedTuple):
 
     @classmethod
     def of(cls, grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64], ends: Samples) -> _Edges:
-        start, long = grid.points(node), np.empty(len(axis))
-        for i, nodes in enumerate(grid.nodes):
-            along = np.flatnonzero(axis == i)
-            long[along] = np.diff(nodes).take(node[:, i].take(along))
-        return cls(start, axis, long, ends)
+        long = [np.diff(grid.nodes[i]).take(node[here, i]) for i, here in enumerate(_by_axis(axis))]
+        return cls(grid.points(node), axis, np.concatenate(long), ends)
 
     def some(self, which: NDArray[np.intp]) -> _Edges:
         """Some of them."""
@@ -99,7 +100,8 @@ class _Edges(NamedTuple):
     def at(self, share: Array) -> Array:
         """The points (n, 3) at those shares (n,) of the edges."""
         points = self.start.copy(order="F")
-        points[np.arange(len(share)), self.axis] += self.long * share
+        for i, here in enumerate(_by_axis(self.axis)):
+            points[here, i] += self.long[here] * share[here]
         return points
 
     def aside(self, apart: float, share: Array, points: Array, slopes: Array) -> Array:
@@ -108,7 +110,13 @@ class _Edges(NamedTuple):
 
     def gain(self, slopes: Array) -> Array:
         """How much a field with the gradients (n, 3) gains along each, (n,)."""
-        return slopes[np.arange(len(slopes)), self.axis] * self.long
+        return np.concatenate([slopes[here, i] for i, here in enumerate(_by_axis(self.axis))]) * self.long
+
+
+def _by_axis(axis: NDArray[np.int64]) -> list[slice]:
+    """Which of the ascending axes (n,) are the first, the second and the third."""
+    ends = np.searchsorted(axis, range(4)).tolist()
+    return [slice(*pair) for pair in pairwise(ends)]
 
 
 class _Askew(NamedTuple):
