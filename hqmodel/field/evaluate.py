@@ -17,7 +17,7 @@ from .powers import CEILING, group_powers, lattice_functions, over_runs, power, 
 from .terms import HUGE, Array, Indices, Terms
 
 # Strips times points worked on at once: what stays in a processor's cache.
-_CHUNK = 1 << 17
+_CHUNK = 1 << 18
 # exp of this is just inside float64.
 _TOP = 709.0
 _STEEP = 1e140
@@ -170,9 +170,11 @@ class _Straightening(NamedTuple):
 
 def exponents(terms: Terms, h_sums: Array) -> Array:
     """T_k = ln |c_k| + beta_k (C_k - H_k), (K, P), from H, (K, P): finite always."""
+    t: Array = terms.constant[:, None] - h_sums
     with np.errstate(over="ignore"):
-        t = terms.hardness[:, None] * (terms.constant[:, None] - h_sums) + terms.log_coefficient[:, None]
-    return np.clip(t, -CEILING, CEILING)
+        t *= terms.hardness[:, None]
+    t += terms.log_coefficient[:, None]
+    return np.clip(t, -CEILING, CEILING, out=t)
 
 
 def log_balance(terms: Terms, t: Array, t_carving: Array | None = None) -> Array:
@@ -195,7 +197,8 @@ def log_sum(t: Array) -> Array:
     if len(t) <= 1:
         return t[0] if len(t) else np.full(t.shape[1], -np.inf)
     top = np.max(t, axis=0)
-    return top + np.log(np.sum(np.exp(t - top), axis=0))
+    rest = t - top
+    return top + np.log(np.sum(np.exp(rest, out=rest), axis=0))
 
 
 def _sums(terms: Terms, points: Array) -> Array:
@@ -241,8 +244,11 @@ def _log_gradient(terms: Terms, points: Array) -> Array:
             total = np.logaddexp(log_sum(t), level) if with_level else log_sum(t)
             weights[side] = (1 if adds else -1) * np.exp(t - total)
     weights *= -terms.hardness[:, None]
-    # not by np.einsum: of no point may the last bit depend on its neighbours
-    return np.vstack([balance, np.sum(weights[:, None] * jet.slope, axis=0)])
+    jet.slope *= weights[:, None]
+    result = np.empty((4, len(points)))
+    result[0] = balance
+    np.sum(jet.slope, axis=0, out=result[1:])  # not by np.einsum: of no point may the last bit depend on its neighbours
+    return result
 
 
 def _term_weights(terms: Terms, points: Array) -> Array:
@@ -314,7 +320,8 @@ class _Jet:
             if terms.grouped:  # m^(G-order) may underflow where s^(G/g-order) overflows: rooted before it is raised
                 inner = terms.inner[terms.group_start][:, None]
                 size = size * self.spread ** (1 / inner)
-            result = np.minimum(power(size, terms.outer - order), _STEEP)
+            result = power(size, terms.outer - order)
+            np.minimum(result, _STEEP, out=result)
             if terms.grouped:
                 result = np.minimum(result * self.spread ** (order * (1 / inner - 1)), _STEEP)
         result *= terms.outer[:, None]
@@ -333,8 +340,10 @@ class _Jet:
         """Sum of by_strip (S, P) times the normals over each term's strips, (K, 3, P)."""
         terms = self.terms
         first_strip = terms.group_start[terms.term_start]
-        parts = [over_runs(by_strip * terms.normal[:, i, None], first_strip) for i in range(3)]
-        return np.clip(np.stack(parts, axis=1), -HUGE, HUGE)
+        result, part = np.empty((len(terms), 3, by_strip.shape[1])), np.empty_like(by_strip)
+        for i in range(3):
+            result[:, i] = over_runs(np.multiply(by_strip, terms.normal[:, i, None], out=part), first_strip)
+        return np.clip(result, -HUGE, HUGE, out=result)
 
     def bend(self) -> Array:
         """The second derivatives of every H, (K, P, 3, 3)."""

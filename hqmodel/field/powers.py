@@ -6,6 +6,9 @@ a positive and a negative power both saturate their logarithms decide.
 
 from __future__ import annotations
 
+from functools import lru_cache
+from itertools import pairwise
+
 import numpy as np
 
 from .terms import HUGE, Array, Indices, Terms
@@ -46,7 +49,8 @@ def group_powers(terms: Terms, u: Array) -> Array:
     """(sum |h|^g)^(G/g) of every group, (G, P), from u = |h|, (S, P)."""
     with np.errstate(over="ignore"):
         if not terms.grouped:
-            return np.minimum(power(u, terms.inner), CEILING)
+            v = power(u, terms.inner)
+            return np.minimum(v, CEILING, out=v)
         largest, spread = scaled(terms, u)
         # Rooted before it is raised: m^G may underflow where s^(G/g) overflows.
         size = largest * spread ** (1 / terms.inner[terms.group_start])[:, None]
@@ -88,29 +92,36 @@ def over_runs(rows: Array, starts: Indices) -> Array:
 
 def power(base: Array, exponents: Array) -> Array:
     """base ** exponents[:, None], (n, P), for bases >= 0; by multiplication where an exponent is a small whole number."""
-    if np.all(exponents == exponents[0]):
-        return _raised(base, float(exponents[0]))
-    kinds = np.unique(exponents)
-    if len(kinds) * 4 > len(exponents) and not np.any((kinds <= _MOST_FACTORS) & (kinds % 1 == 0)):
+    runs = _alike(exponents.tobytes())
+    if len(runs) * 4 > len(exponents) and not any(_by_factors(exponent) for exponent, _ in runs):
         return base ** exponents[:, None]
     result = np.empty(np.broadcast_shapes(base.shape, (len(exponents), 1)))
-    for kind in kinds:
-        rows = exponents == kind
-        result[rows] = _raised(base[rows], float(kind))
+    for exponent, rows in runs:
+        _raise(base[rows if len(base) > 1 else slice(None)], exponent, result[rows])
     return result
 
 
-def _raised(base: Array, exponent: float) -> Array:
-    if exponent % 1 or not 1 <= exponent <= _MOST_FACTORS:
-        return np.power(base, exponent)
-    left, square, result = int(exponent), base, None
-    while left:
-        if left & 1:
-            result = square if result is None else result * square
-        left >>= 1
-        square = square * square if left else square
-    assert result is not None
-    return result
+@lru_cache(maxsize=1024)
+def _alike(exponents: bytes) -> list[tuple[float, slice]]:
+    """Runs of equal exponents, float64."""
+    values = np.frombuffer(exponents)
+    ends = [*np.flatnonzero(np.diff(values)) + 1, len(values)]
+    return [(float(values[start]), slice(start, end)) for start, end in pairwise([0, *ends])]
+
+
+def _by_factors(exponent: float) -> bool:
+    return exponent % 1 == 0 and 1 <= exponent <= _MOST_FACTORS
+
+
+def _raise(base: Array, exponent: float, out: Array) -> None:
+    if not _by_factors(exponent):
+        np.power(base, exponent, out=out)
+        return
+    out[:] = base
+    for digit in f"{int(exponent):b}"[1:]:
+        out *= out
+        if digit == "1":
+            out *= base
 
 
 def _by_logarithm(terms: Terms, u: Array, total: Array) -> Array:

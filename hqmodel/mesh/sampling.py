@@ -27,7 +27,7 @@ _THIN = 4.0
 # It tapers to less than a cell where that takes so many cells.
 _TAPERS = 0.25
 # Blocks sampled at once: what stays in a processor's cache.
-_BLOCKS = 1 << 9
+_BLOCKS = 1 << 10
 _STEPS = np.arange(BLOCK)[:, None]
 # How far beside a thin part nodes belong to it, in cells.
 _BESIDE = 1.5
