@@ -72,5 +72,5 @@ class Balance(NamedTuple):
     def sunk(self, off: Steps, faces: Triangles, step: Steps) -> Steps:
         """`off` (F,) after the corners of the faces (F, 3) have moved by their steps (V,)."""
         for corner in faces.T:
-            off = off - np.rint(step[corner] / 3)
+            off = off - np.rint(step.take(corner) / 3)
         return off

@@ -31,7 +31,7 @@ from .grid import BLOCK, make_grid
 from .measure import furthest
 from .mesh import Mesh, MeshError, rows
 from .refine import place_vertices
-from .sampling import Sampling
+from .sampling import Sampling, by_cube
 from .shade import clothed
 from .tolerance import COARSE, MOST, fineness, finer
 from .weld import Piece, Weld
@@ -159,7 +159,8 @@ def _pieces(scene: Scene, terms: Terms, balance: Balance, tell: Callable[[float]
     blocks = np.concatenate([np.empty((0, 3), dtype=np.int32), *found], dtype=np.int32, casting="same_kind")
     ends = range(RUN, len(blocks) + RUN, RUN)
     runs: list[Blocks] = [blocks[end - RUN : end] for end in ends]
-    pieces = _in_order(partial(_piece, scene, terms, balance, stopped), runs, waiting, stopped)
+    work = partial(_piece, scene, terms, by_cube(terms, balance.grid), balance, stopped)
+    pieces = _in_order(work, runs, waiting, stopped)
     for piece, end in zip(pieces, ends, strict=True):
         share = min(end / len(blocks), 1.0)
         if piece is not None:
@@ -191,17 +192,20 @@ def _in_order(
             pool.shutdown(wait=True, cancel_futures=True)
 
 
-def _piece(scene: Scene, terms: Terms, balance: Balance, stopped: threading.Event, blocks: Blocks) -> Piece | None:
+def _piece(
+    scene: Scene, terms: Terms, within: Callable[[int], Terms], balance: Balance, stopped: threading.Event, blocks: Blocks
+) -> Piece | None:
     def still() -> None:
         if stopped.is_set():
             raise CancelledError  # nobody looks at the result any more
 
     grid, local = balance.grid, relevant(terms, balance.grid, blocks, BLOCK)
-    patch = extract(blocks, Sampling(terms, local, grid, still))
+    patch = extract(blocks, Sampling(terms, within, local, grid, still))
     still()
     if patch is None or not len(patch.faces):
         return None
-    node, axis, faces = patch.node, patch.axis, patch.faces
+    node, axis = patch.node, patch.axis
+    faces = np.asfortranarray(patch.faces, dtype=np.intp)  # corner by corner, in numbers that needn't be converted
     vertices, slopes = place_vertices(local, grid, node, axis, patch.ends, patch.aside, still)
     still()
     normals, colors, off = clothed(scene, local, grid, vertices, slopes, faces, within=axis == AT_NODE)
@@ -218,6 +222,6 @@ def _piece(scene: Scene, terms: Terms, balance: Balance, stopped: threading.Even
         pulls=rows(pulls, shared),
         pinched=patch.pinched,
         sharp=sharp_vertices(faces, off, normals),
-        faces=faces,
+        faces=patch.faces,
         worst=furthest(balance.sunk(off, faces, step)),
     )

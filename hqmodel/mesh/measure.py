@@ -28,7 +28,7 @@ def depths(terms: Terms, vertices: Array, faces: Triangles, slopes: Array, cell:
 
     `slopes` (V,) is how fast the near-linear field changes at each vertex.
     """
-    a, b, c = faces.T.astype(np.intp)
+    a, b, c = faces.T.astype(np.intp, copy=False)
     middles = np.stack([(x.take(a) + x.take(b) + x.take(c)) / 3 for x in vertices.T]).T
     slope = (slopes.take(a) + slopes.take(b) + slopes.take(c)) / 3
     slope *= QUANTUM * cell

@@ -50,7 +50,7 @@ class Mesh:
 def marks(marked: NDArray[np.bool_], faces: Triangles) -> NDArray[np.uint8]:
     """How many corners of each face, (F,), are marked, (V,)."""
     of_vertex = marked.view(np.uint8)
-    return of_vertex[faces[:, 0]] + of_vertex[faces[:, 1]] + of_vertex[faces[:, 2]]
+    return of_vertex.take(faces[:, 0]) + of_vertex.take(faces[:, 1]) + of_vertex.take(faces[:, 2])
 
 
 def rows(values: NDArray[Any], which: NDArray[np.intp]) -> NDArray[Any]:
@@ -76,7 +76,7 @@ def lengths(vectors: Array) -> Array:
 
 def alike(normals: NDArray[np.float32], faces: Triangles, cosine: float) -> NDArray[np.bool_]:
     """Whether the unit normals (V, 3) at the corners of each face, (F,), agree to within that cosine."""
-    a, b, c = (rows(normals, faces[:, i].astype(np.intp)) for i in range(3))
+    a, b, c = (rows(normals, faces[:, i].astype(np.intp, copy=False)) for i in range(3))
     return np.minimum(np.minimum(dots(a, b), dots(b, c)), dots(c, a)) > cosine
 
 

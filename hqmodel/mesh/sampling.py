@@ -58,17 +58,27 @@ class ThinStrip(NamedTuple):
         return np.all(np.abs(numbers @ self.gradients.T + self.constants) <= room, axis=1)
 
 
+def by_cube(terms: Terms, grid: Grid) -> Callable[[int], Terms]:
+    """The terms that matter in each cube of cells, by its number: worked out once."""
+
+    def within(cube: int) -> Terms:
+        return relevant(terms, grid, (cube // ALONG % ALONG[1])[None] * CUBE, CUBE)
+
+    return cache(within)
+
+
 class Sampling:
-    """A scene's `terms` on a grid, and those that matter `here`, where it is looked at. `still` is called before each look;
-    whatever it raises ends the work.
+    """A scene's `terms` on a grid, those that matter in each of its cubes, and those that do `here`, where it is looked at.
+    `still` is called before each look; whatever it raises ends the work.
 
     What a node is told is the same to the last bit whatever else is looked at: terms that don't matter are left out by the cube
     of cells that it lies in.
     """
 
-    def __init__(self, terms: Terms, here: Terms, grid: Grid, still: Callable[[], None]) -> None:
-        self._terms, self._here, self._grid, self._still = terms, here, grid, still
-        self._within = cache(self._relevant)
+    def __init__(
+        self, terms: Terms, within: Callable[[int], Terms], here: Terms, grid: Grid, still: Callable[[], None]
+    ) -> None:
+        self._terms, self._within, self._here, self._grid, self._still = terms, within, here, grid, still
 
     @property
     def convex(self) -> bool:
@@ -126,9 +136,6 @@ class Sampling:
         order = np.argsort(cube, kind="stable")
         for which in np.split(order, np.flatnonzero(np.diff(cube[order])) + 1):
             yield which, self._within(int(cube[which[0]]))
-
-    def _relevant(self, cube: int) -> Terms:
-        return relevant(self._terms, self._grid, (cube // ALONG % ALONG[1])[None] * CUBE, CUBE)
 
     def thin_strips(self) -> Iterator[ThinStrip]:
         """Strips that bound, or carve, something a few cells thick, or that tapers to less than a cell."""
