@@ -8,6 +8,7 @@ lone shape with c = w = 1 just beta (C - H): what roots are sought and grids are
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -111,7 +112,7 @@ def near_linear_single(terms: Terms, ratio: Array, rounding: float = 0.0) -> NDA
 
     Negative, too, where the field is no further above its level than `rounding`.
     """
-    way = _Straightening.of(terms)
+    way = _straightening(terms.chosen_from or terms)
     share = 1.0 - ratio / way.hard
     root = np.log(np.clip(share, way.least, 1e37).astype(np.float32))
     root /= np.float32(way.steep)
@@ -125,7 +126,7 @@ def near_linear_single(terms: Terms, ratio: Array, rounding: float = 0.0) -> NDA
 
 def _straightened(terms: Terms, ratio: Array) -> tuple[Array, Array]:
     """The near-linear field (...,) and how fast it rises with L."""
-    way = _Straightening.of(terms)
+    way = _straightening(terms.chosen_from or terms)
     share = np.clip(1.0 - ratio / way.hard, -HUGE, HUGE)
     held = np.maximum(share, way.least)
     root = held ** (1.0 / way.steep)
@@ -148,17 +149,6 @@ class _Straightening(NamedTuple):
     steep: float
     least: float
 
-    @classmethod
-    def of(cls, terms: Terms) -> _Straightening:
-        """For these terms: where some have been left out, as for all."""
-        terms = terms.chosen_from or terms
-        adds = terms.positive
-        hardness = float(np.max(terms.hardness[adds], initial=1e-300))
-        top = np.max(terms.log_coefficient[adds] + terms.hardness[adds] * terms.constant[adds], initial=-np.inf)
-        hard = max(float(top) - (np.log(terms.level) if terms.level > 0 else 0.0), hardness)
-        steep = float(np.max(terms.outer, initial=1.0))
-        return cls(hard, steep, 1 / (2 + steep) if len(terms) > 1 or terms.hyperbolic else _CENTRE)
-
     def further(self, share: Array) -> Array:
         """The root of what L is beyond the least share; 1 before that."""
         return np.maximum(1.0 + (self.least - share), 1.0) ** (1.0 / self.steep)
@@ -166,6 +156,17 @@ class _Straightening(NamedTuple):
     def beyond(self, further: Array) -> Array:
         """What the root of the least share is to be multiplied by."""
         return 1.0 - (further - 1.0) / self.least
+
+
+@lru_cache(maxsize=16)
+def _straightening(terms: Terms) -> _Straightening:
+    """For these terms: where some have been left out, that for all is to be used."""
+    adds = terms.positive
+    hardness = float(np.max(terms.hardness[adds], initial=1e-300))
+    top = np.max(terms.log_coefficient[adds] + terms.hardness[adds] * terms.constant[adds], initial=-np.inf)
+    hard = max(float(top) - (float(np.log(terms.level)) if terms.level > 0 else 0.0), hardness)
+    steep = float(np.max(terms.outer, initial=1.0))
+    return _Straightening(hard, steep, 1 / (2 + steep) if len(terms) > 1 or terms.hyperbolic else _CENTRE)
 
 
 def exponents(terms: Terms, h_sums: Array) -> Array:
@@ -179,17 +180,26 @@ def exponents(terms: Terms, h_sums: Array) -> Array:
 
 def log_balance(terms: Terms, t: Array, t_carving: Array | None = None) -> Array:
     """L (P,) from the exponents T (K, P); for bounds the carving terms may take theirs from another array."""
-    positive = terms.positive
-    level = terms.level
-    if level > 0 and positive.all():
-        return log_sum(t) - np.log(level)
-    gain = [t[positive]]
-    loss = [(t if t_carving is None else t_carving)[~positive]]
-    if level != 0:
-        (loss if level > 0 else gain).append(np.full((1, t.shape[1]), np.log(abs(level))))
-    p, n = log_sum(np.concatenate(gain)), log_sum(np.concatenate(loss))
+    return _difference(*_log_sides(terms, t, t if t_carving is None else t_carving))
+
+
+def _difference(p: Array, n: Array) -> Array:
     with np.errstate(invalid="ignore"):
         return np.where(p == n, 0.0, p - n)
+
+
+def _log_sides(terms: Terms, t_adding: Array, t_carving: Array) -> tuple[Array, Array]:
+    """ln P and ln N, (P,) each, from the exponents T (K, P) of what adds and of what carves."""
+    adds, level = terms.positive, terms.level
+    gain, loss = (t_adding, t_carving[:0]) if adds.all() else (t_adding[adds], t_carving[~adds])
+    if level != 0:
+        flat = np.full((1, t_adding.shape[1]), np.log(abs(level)))
+        gain, loss = (_joined(gain, flat), loss) if level < 0 else (gain, _joined(loss, flat))
+    return log_sum(gain), log_sum(loss)
+
+
+def _joined(rows: Array, more: Array) -> Array:
+    return np.concatenate([rows, more]) if len(rows) else more
 
 
 def log_sum(t: Array) -> Array:
@@ -233,20 +243,13 @@ def _gradient(terms: Terms, points: Array) -> Array:
 
 def _log_gradient(terms: Terms, points: Array) -> Array:
     jet = _Jet(terms, points)
-    balance = log_balance(terms, jet.t)
-    weights = np.empty_like(jet.t)
-    level = np.log(abs(terms.level)) if terms.level else -np.inf
-    for side, adds in ((terms.positive, True), (~terms.positive, False)):
-        t, with_level = jet.t[side], (terms.level < 0) == adds
-        if len(t) == 1 and not with_level:
-            weights[side] = 1 if adds else -1
-        elif len(t):
-            total = np.logaddexp(log_sum(t), level) if with_level else log_sum(t)
-            weights[side] = (1 if adds else -1) * np.exp(t - total)
-    weights *= -terms.hardness[:, None]
+    p, n = _log_sides(terms, jet.t, jet.t)
+    weights = jet.t - (p if terms.positive.all() else np.where(terms.positive[:, None], p, n))
+    np.exp(weights, out=weights)
+    weights *= -(np.sign(terms.coefficient) * terms.hardness)[:, None]
     jet.slope *= weights[:, None]
     result = np.empty((4, len(points)))
-    result[0] = balance
+    result[0] = _difference(p, n)
     np.sum(jet.slope, axis=0, out=result[1:])  # not by np.einsum: of no point may the last bit depend on its neighbours
     return result
 
