@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
+from math import prod
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -51,8 +52,13 @@ def lattice_log_ratio(terms: Terms, x: Array, y: Array, z: Array) -> Array:
     shape = len(x), len(y), len(z), x.shape[1]
     if not len(terms):
         return np.full(shape, log_ratio(terms, np.zeros(3)))
-    u = lattice_functions(terms, x, y, z)
-    return log_balance(terms, exponents(terms, _sums_of(terms, np.abs(u, out=u)))).reshape(shape)
+    result = np.empty(shape)
+    step = max(1, _CHUNK // (len(terms.inner) * prod(shape[:3])))
+    for here in (slice(start, start + step) for start in range(0, shape[3], step)):
+        u = lattice_functions(terms, x[:, here], y[:, here], z[:, here])
+        balance = log_balance(terms, exponents(terms, _sums_of(terms, np.abs(u, out=u))))
+        result[..., here] = balance.reshape(*shape[:3], -1)
+    return result
 
 
 def gradient(terms: Terms, points: ArrayLike) -> Array:
