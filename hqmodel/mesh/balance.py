@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from .grid import Grid
 from .measure import QUANTUM
-from .mesh import Array, Triangles, alike
+from .mesh import Array, Faces, alike
 
 # The share, and how far a vertex may move at most, as a share of the longest side.
 _SHARE = 0.75
@@ -40,7 +40,7 @@ class Balance(NamedTuple):
         """For a body whose longest side is `longest`."""
         return cls(grid, mirrored, float(np.floor(_FURTHEST * longest / (QUANTUM * grid.cell))))
 
-    def pulls(self, faces: Triangles, off: Steps, normals: NDArray[np.float32]) -> NDArray[np.float32]:
+    def pulls(self, faces: Faces, off: Steps, normals: NDArray[np.float32]) -> NDArray[np.float32]:
         """The sum of `off` (F,) over the smooth faces about each vertex, and their number, (V, 2); `normals` (V, 3)."""
         smooth = (np.abs(off) < _SMOOTH / QUANTUM) & alike(normals, faces, _ALIKE)
         off = np.where(smooth, off, 0)
@@ -69,7 +69,7 @@ class Balance(NamedTuple):
                 way[vertices[:, i] == 0] = 0
             vertices[:, i] += way
 
-    def sunk(self, off: Steps, faces: Triangles, step: Steps) -> Steps:
+    def sunk(self, off: Steps, faces: Faces, step: Steps) -> Steps:
         """`off` (F,) after the corners of the faces (F, 3) have moved by their steps (V,)."""
         for corner in faces.T:
             off = off - np.rint(step.take(corner) / 3)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from hqmodel.field import Terms
 
 from .measure import QUANTUM
-from .mesh import Array, Triangles, alike, dots, lengths, marks, unit
+from .mesh import Array, Faces, Triangles, alike, dots, lengths, marks, unit
 from .splits import Indices, Part, Plane
 
 # Ends whose normals' cosine is less than this look different ways.
@@ -41,7 +41,7 @@ class Creased(NamedTuple):
     origin: Indices
 
 
-def sharp_vertices(faces: Triangles, off: NDArray[np.float32], normals: NDArray[np.float32]) -> NDArray[np.bool_]:
+def sharp_vertices(faces: Faces, off: NDArray[np.float32], normals: NDArray[np.float32]) -> NDArray[np.bool_]:
     """The vertices, (V,), of faces (F, 3) that a crease may pass through: well off the surface, by `off` (F,) quanta, and between
     vertices whose normals (V, 3) differ."""
     rough = faces.compress(np.abs(off) > _ROUGH, axis=0)

@@ -22,8 +22,8 @@ AT_NODE = 3
 _STRIDES = np.array([(BLOCK + 1) ** 2, BLOCK + 1, 1])
 _EDGE_AXIS = np.array([axis for _, axis in EDGES])
 _EDGE_NODE = CORNERS[[corner for corner, _ in EDGES]] @ _STRIDES
-# By how much the number of one of a block's own nodes rises when it is counted among all.
-_AMONG_ALL = OWN @ _STRIDES - np.arange(len(OWN))
+# A block's own nodes among all of it.
+_OWN_ROWS = OWN @ _STRIDES
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,10 +59,10 @@ def extract(blocks: Blocks, sampling: Sampling) -> Patch | None:
     nodes.into_sheets(samples, sampling)
     inside = nodes.by_block((samples > 0).view(np.uint8))
     case = _cases(inside)
-    cells, first = _among_all((case - np.uint8(1)) < 254)
-    if not len(cells):
+    mixed = (case - np.uint8(1)) < 254
+    if not mixed.any():
         return None
-    case = case.reshape(-1).take(cells)
+    case, first = case[mixed], _among_all(mixed, _OWN_ROWS)
     joined, unclear = _joined(case, first, nodes, samples, sampling)
     near, far, axis, number = _vertices(nodes, inside)
     border = nodes.bordering()
@@ -86,46 +86,39 @@ def _cases(inside: NDArray[np.uint8]) -> NDArray[np.uint8]:
     return np.asarray(case[:-1] | case[1:] << 4).reshape(len(OWN), -1)
 
 
-def _among_all(own: NDArray[np.bool_]) -> tuple[Indices, Indices]:
-    """Which of the blocks' own nodes, (64, n), are marked, (m,), and where they are among all of the blocks, (125, n)."""
-    which = np.flatnonzero(own)
-    return which, which + np.repeat(_AMONG_ALL * own.shape[1], np.count_nonzero(own, axis=1))
+def _among_all(marked: NDArray[np.bool_], rows: Indices) -> Indices:
+    """Where the marked ones of some rows (r, n) of the blocks' nodes are among all of them, (125, n)."""
+    shift = (rows - np.arange(len(rows))) * marked.shape[1]
+    return np.flatnonzero(marked) + np.repeat(shift, np.count_nonzero(marked, axis=1))
 
 
-def _vertices(
-    nodes: Nodes, inside: NDArray[np.uint8]
-) -> tuple[Indices, NDArray[np.int32], NDArray[np.int64], NDArray[np.int32]]:
+def _vertices(nodes: Nodes, inside: NDArray[np.uint8]) -> tuple[Indices, Indices, NDArray[np.int64], NDArray[np.int32]]:
     """The crossed edges of blocks, each once: the places of both nodes and the axis, (V,) each; and the edges' numbers by axis
     and place, (3, places). `inside` (125, n) tells all nodes of the blocks."""
-    of_block, count = nodes.of_block.reshape(-1), nodes.count
-    lattice = inside.reshape(BLOCK + 1, BLOCK + 1, BLOCK + 1, -1)
+
+    def crossed(rows: Indices) -> tuple[Indices, Indices]:
+        start = _among_all(inside[rows] != inside[rows + stride], rows)
+        end = start + stride * nodes.count
+        return nodes.of_block.take(start).astype(np.intp), nodes.of_block.take(end).astype(np.intp)
+
     number = np.zeros((3, len(nodes)), dtype=np.int32)
-    beyond, crossed = np.empty(len(nodes) - nodes.owned, dtype=np.int32), np.zeros(len(nodes) - nodes.owned, dtype=bool)
-    near, far = list[Indices](), list[NDArray[np.int32]]()
+    beyond = np.empty(len(nodes) - nodes.owned, dtype=np.intp)
+    near, far, axes = list[Indices](), list[Indices](), list[NDArray[np.int64]]()
+    count = 0
     for axis, stride in enumerate(_STRIDES):
-        sides = np.moveaxis(lattice, axis, 0)
-        own = np.moveaxis(sides[:-1] != sides[1:], 0, axis)[:BLOCK, :BLOCK, :BLOCK].reshape(len(OWN), -1)
-        place, where = _among_all(own)
-        near.append(place)
-        far.append(of_block.take(where + stride * count))
-        rows = np.flatnonzero((ALL[:, axis] < BLOCK) & (ALL.max(axis=1) == BLOCK))
-        differ = inside[rows] != inside[rows + stride]
-        where = np.flatnonzero(differ) + np.repeat((rows - np.arange(len(rows))) * count, np.count_nonzero(differ, axis=1))
-        start = of_block.take(where) - nodes.owned
-        rim = start >= 0
-        start = start[rim]
-        beyond[start] = of_block.take(where[rim] + stride * count)
-        crossed[start] = True
-        start = np.flatnonzero(crossed)
-        crossed[start] = False
-        near.append(start + nodes.owned)
-        far.append(beyond.take(start))
-    ends = np.cumsum([len(part) for part in near])
-    starts = np.concatenate(near)
-    for axis in range(3):
-        begin, end = ends[2 * axis - 1] if axis else 0, ends[2 * axis + 1]
-        number[axis, starts[begin:end]] = np.arange(begin, end)
-    return starts, np.concatenate(far), np.repeat(np.arange(6) // 2, [len(part) for part in near]), number
+        start, end = crossed(_OWN_ROWS)
+        rim_start, rim_end = crossed(np.flatnonzero((ALL[:, axis] < BLOCK) & (ALL.max(axis=1) == BLOCK)))
+        beyond[:] = -1
+        on_rim = rim_start >= nodes.owned  # the others are a block's own; of these several blocks may have each
+        beyond[rim_start[on_rim] - nodes.owned] = rim_end[on_rim]
+        rim = np.flatnonzero(beyond >= 0)
+        near += [start, rim + nodes.owned]
+        far += [end, beyond[rim]]
+        axes.append(np.full(len(start) + len(rim), axis))
+        for places in near[-2:]:
+            number[axis, places] = np.arange(count, count + len(places))
+            count += len(places)
+    return np.concatenate(near), np.concatenate(far), np.concatenate(axes), number
 
 
 def _without_length(patch: Patch, leaves: NDArray[np.bool_]) -> Patch:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from hqmodel.field import Terms, log_ratio, near_linear_single
 
-from .mesh import Array, Mesh, Triangles, crosses, dots, lengths, unit
+from .mesh import Array, Faces, Mesh, Triangles, crosses, dots, lengths, unit
 from .refine import to_surface
 
 # Faces that are measured between two looks at whether it is still wanted.
@@ -23,7 +23,7 @@ QUANTUM = 2.0**-20
 _LOST = 1e-2
 
 
-def depths(terms: Terms, vertices: Array, faces: Triangles, slopes: Array, cell: float) -> NDArray[np.float32]:
+def depths(terms: Terms, vertices: Array, faces: Faces, slopes: Array, cell: float) -> NDArray[np.float32]:
     """How far each face's middle lies below the surface, (F,), in whole quanta of a cell, to first order; negative above it.
 
     `slopes` (V,) is how fast the near-linear field changes at each vertex.

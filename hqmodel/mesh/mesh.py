@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 Triangles = NDArray[np.int32]
+# The same in numbers of any size.
+Faces = NDArray[np.integer[Any]]
 _PART = 1 << 13
 
 
@@ -47,7 +49,7 @@ class Mesh:
     resolution: int | None = None
 
 
-def marks(marked: NDArray[np.bool_], faces: Triangles) -> NDArray[np.uint8]:
+def marks(marked: NDArray[np.bool_], faces: Faces) -> NDArray[np.uint8]:
     """How many corners of each face, (F,), are marked, (V,)."""
     of_vertex = marked.view(np.uint8)
     return of_vertex.take(faces[:, 0]) + of_vertex.take(faces[:, 1]) + of_vertex.take(faces[:, 2])
@@ -74,7 +76,7 @@ def lengths(vectors: Array) -> Array:
     return np.sqrt(dots(vectors, vectors))
 
 
-def alike(normals: NDArray[np.float32], faces: Triangles, cosine: float) -> NDArray[np.bool_]:
+def alike(normals: NDArray[np.float32], faces: Faces, cosine: float) -> NDArray[np.bool_]:
     """Whether the unit normals (V, 3) at the corners of each face, (F,), agree to within that cosine."""
     a, b, c = (rows(normals, faces[:, i].astype(np.intp, copy=False)) for i in range(3))
     return np.minimum(np.minimum(dots(a, b), dots(b, c)), dots(c, a)) > cosine
@@ -97,15 +99,16 @@ def reflected(mesh: Mesh, axis: int) -> Mesh:
     Vertices whose coordinate is exactly 0 are shared; the others must all lie on one side.
     """
     shared = mesh.vertices[:, axis] == 0
+    others = np.flatnonzero(~shared)
     flip = np.ones(3, dtype=np.float32)
     flip[axis] = -1
     image_of = (np.cumsum(~shared) - 1 + len(mesh.vertices)).astype(np.int32)
     image_of[shared] = np.flatnonzero(shared)
     normals, colors = mesh.normals, mesh.colors
     return Mesh(
-        np.concatenate([mesh.vertices, mesh.vertices[~shared] * flip]) + 0.0,
-        np.concatenate([mesh.faces, image_of[mesh.faces][:, ::-1]]),
-        None if normals is None else np.concatenate([normals, normals[~shared] * flip]),
-        None if colors is None else np.concatenate([colors, colors[~shared]]),
+        np.concatenate([mesh.vertices, rows(mesh.vertices, others) * flip]) + 0.0,
+        np.concatenate([mesh.faces, image_of.take(mesh.faces)[:, ::-1]]),
+        None if normals is None else np.concatenate([normals, rows(normals, others) * flip]),
+        None if colors is None else np.concatenate([colors, rows(colors, others)]),
         mesh.surface_error,
     )

@@ -96,7 +96,7 @@ class Nodes:
             self._found[found.places] = (samples[found.places] > 0) != (found.samples > 0)
             samples[found.places] = found.samples
 
-    def aside(self, near: Indices, far: NDArray[np.int32]) -> Array | None:
+    def aside(self, near: Indices, far: Indices) -> Array | None:
         """How far the nodes at places (n,) each have moved, (n, 2, 3); None where none has."""
         return None if self._shift is None else np.stack([self._shift[near], self._shift[far]], axis=1)
 

@@ -25,6 +25,8 @@ _SPREAD = 0.25
 _APART = 1e-3
 # A Newton step shorter than this share of its edge ends where another would be shorter than a hundred-thousandth.
 _NEARLY = 5e-3
+# A Newton step shorter than this share of the longest is the last, where the field is no more than this off its level.
+_STILL = 1e-9
 # The width of a root's bracket, as a share of its edge.
 _PRECISE = 1e-8
 
@@ -249,12 +251,18 @@ def to_surface(
 
     Coordinates that are `fixed`, (n, 3), stay.
     """
-    moved = points
+    moved, last = points.copy(), np.full(len(points), np.inf)
+    going = np.arange(len(points))
     for _ in range(rounds):
-        linear, slope = near_linear_gradient(terms, moved)
+        linear, slope = near_linear_gradient(terms, rows(moved, going))
         if fixed is not None:
-            slope = np.where(fixed, 0.0, slope)
+            slope[rows(fixed, going)] = 0.0
         size = np.maximum(lengths(slope), 1e-200)
         distance = np.clip(linear / size, -stride, stride)
-        moved = moved - (distance / size)[:, None] * slope
-    return moved, np.abs(distance)
+        slope *= (distance / size)[:, None]
+        moved[going] -= slope
+        last[going] = np.abs(distance)
+        going = going[(np.abs(distance) > _STILL * stride) | (np.abs(linear) > _STILL)]
+        if not going.size:
+            break
+    return moved, last

@@ -75,9 +75,7 @@ class Sampling:
     of cells that it lies in.
     """
 
-    def __init__(
-        self, terms: Terms, within: Callable[[int], Terms], here: Terms, grid: Grid, still: Callable[[], None]
-    ) -> None:
+    def __init__(self, terms: Terms, within: Callable[[int], Terms], here: Terms, grid: Grid, still: Callable[[], None]) -> None:
         self._terms, self._within, self._here, self._grid, self._still = terms, within, here, grid, still
 
     @property

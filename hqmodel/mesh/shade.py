@@ -10,7 +10,7 @@ from hqmodel.model import Scene
 
 from .grid import Grid
 from .measure import depths
-from .mesh import Array, Triangles, lengths, unit
+from .mesh import Array, Faces, lengths, unit
 
 
 def with_caps(normals: Array, vertices: Array, grid: Grid, within: NDArray[np.bool_] | None = None) -> NDArray[np.float32]:
@@ -29,7 +29,7 @@ def colored(scene: Scene, terms: Terms, vertices: Array) -> NDArray[np.uint8]:
 
 
 def clothed(
-    scene: Scene, terms: Terms, grid: Grid, vertices: Array, slopes: Array, faces: Triangles, within: NDArray[np.bool_]
+    scene: Scene, terms: Terms, grid: Grid, vertices: Array, slopes: Array, faces: Faces, within: NDArray[np.bool_]
 ) -> tuple[NDArray[np.float32], NDArray[np.uint8], NDArray[np.float32]]:
     """Normals (V, 3), colours (V, 3), and how far faces' middles lie below the surface, (F,) quanta, on caps 0.
 
@@ -39,14 +39,14 @@ def clothed(
     return with_caps(unit(-slopes), vertices, grid, within), colored(scene, terms, vertices), off
 
 
-def off_surface(terms: Terms, grid: Grid, vertices: Array, slopes: Array, faces: Triangles) -> NDArray[np.float32]:
+def off_surface(terms: Terms, grid: Grid, vertices: Array, slopes: Array, faces: Faces) -> NDArray[np.float32]:
     """How far the middles of faces lie below the surface, (F,) quanta, on caps 0; `slopes` (V, 3) as for `clothed`."""
     off = depths(terms, vertices, faces, lengths(slopes), grid.cell)
     off[on_caps(faces, vertices, grid)] = 0
     return off
 
 
-def on_caps(faces: Triangles, vertices: Array, grid: Grid) -> NDArray[np.bool_]:
+def on_caps(faces: Faces, vertices: Array, grid: Grid) -> NDArray[np.bool_]:
     """Whether each face is part of a cap, (F,)."""
     result = np.zeros(len(faces), dtype=bool)
     for axis, plane, _ in grid.cuts:
