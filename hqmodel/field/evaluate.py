@@ -306,13 +306,14 @@ class _Jet:
         h = strip_functions(terms, points)
         u = np.abs(h)
         self.sign = np.sign(h, out=h)
-        self.t = exponents(terms, term_sums(terms, group_powers(terms, u), u))
         if terms.grouped:
             self.largest, self.spread = scaled(terms, u)
             self.share = u / np.maximum(self.largest, np.finfo(float).tiny)[terms.group_of_strip]
         else:
             self.largest, self.spread, self.share = u, np.ones(1), np.ones(1)
         first = self._group_factor(1)
+        self.t = exponents(terms, term_sums(terms, self._powers(u, first), u))
+        first *= terms.outer[:, None]
         if terms.grouped:
             first = first[terms.group_of_strip] * self._share_power(1)
         self.by_strip = np.minimum(first, _STEEP, out=first)
@@ -320,8 +321,16 @@ class _Jet:
         signed = self.by_strip * terms.group_sign[terms.group_of_strip][:, None] if terms.hyperbolic else self.by_strip
         self.slope = self._to_terms(signed)
 
+    def _powers(self, u: Array, first: Array) -> Array:
+        """The groups' powers, (G, P), from the lone strips' u^(g-1) where that is quicker."""
+        if self.terms.grouped or np.any(self.terms.outer < 1):
+            return group_powers(self.terms, u)
+        with np.errstate(over="ignore"):
+            v: Array = first * u
+        return np.minimum(v, CEILING, out=v)
+
     def _group_factor(self, order: int) -> Array:
-        """G m^(G-order) s^(G/g-order), (G, P); 0 at m = 0 unless the exponent is 0."""
+        """m^(G-order) s^(G/g-order), (G, P); 0 at m = 0 unless the exponent is 0."""
         terms = self.terms
         lowered = (terms.outer - order)[:, None]
         with np.errstate(over="ignore", divide="ignore"):
@@ -333,7 +342,6 @@ class _Jet:
             np.minimum(result, _STEEP, out=result)
             if terms.grouped:
                 result = np.minimum(result * self.spread ** (order * (1 / inner - 1)), _STEEP)
-        result *= terms.outer[:, None]
         return np.where((self.largest > 0) | (lowered >= 0), result, 0.0) if np.any(lowered < 0) else result
 
     def _share_power(self, order: int) -> Array:
@@ -358,7 +366,7 @@ class _Jet:
         """The second derivatives of every H, (K, P, 3, 3)."""
         terms = self.terms
         sign = terms.group_sign[:, None]
-        factor = self._group_factor(2)
+        factor = self._group_factor(2) * terms.outer[:, None]
         diagonal = self._share_power(2) * ((factor * self.spread * sign)[terms.group_of_strip] * (terms.inner - 1)[:, None])
         first_strip = terms.group_start[terms.term_start]
         mixed = self._share_power(1) * self.sign

@@ -96,18 +96,18 @@ def _vertices(nodes: Nodes, inside: NDArray[np.uint8]) -> tuple[Indices, Indices
     """The crossed edges of blocks, each once: the places of both nodes and the axis, (V,) each; and the edges' numbers by axis
     and place, (3, places). `inside` (125, n) tells all nodes of the blocks."""
 
-    def crossed(rows: Indices) -> tuple[Indices, Indices]:
-        start = _among_all(inside[rows] != inside[rows + stride], rows)
-        end = start + stride * nodes.count
+    def crossed(axis: int, rows: Indices) -> tuple[Indices, Indices]:
+        start = _among_all(inside[rows] != inside[rows + _STRIDES[axis]], rows)
+        end = start + _STRIDES[axis] * nodes.count
         return nodes.of_block.take(start).astype(np.intp), nodes.of_block.take(end).astype(np.intp)
 
     number = np.zeros((3, len(nodes)), dtype=np.int32)
     beyond = np.empty(len(nodes) - nodes.owned, dtype=np.intp)
     near, far, axes = list[Indices](), list[Indices](), list[NDArray[np.int64]]()
     count = 0
-    for axis, stride in enumerate(_STRIDES):
-        start, end = crossed(_OWN_ROWS)
-        rim_start, rim_end = crossed(np.flatnonzero((ALL[:, axis] < BLOCK) & (ALL.max(axis=1) == BLOCK)))
+    for axis in range(3):
+        start, end = crossed(axis, _OWN_ROWS)
+        rim_start, rim_end = crossed(axis, np.flatnonzero((ALL[:, axis] < BLOCK) & (ALL.max(axis=1) == BLOCK)))
         beyond[:] = -1
         on_rim = rim_start >= nodes.owned  # the others are a block's own; of these several blocks may have each
         beyond[rim_start[on_rim] - nodes.owned] = rim_end[on_rim]

@@ -178,9 +178,11 @@ def _peaks(node: Array, axis: Indices, outside: NDArray[np.bool_], sampling: Sam
         return np.stack([share, side[which] * value, side[which] * slope, steepest])
 
     which = np.arange(count)
-    low, high = look(which, np.zeros(count)), look(which, np.ones(count))
-    through = (low[2] > _THROUGH * low[3]) & (-high[2] > _THROUGH * high[3])
-    which, low, high = which[through], low[:, through], high[:, through]
+    low = look(which, np.zeros(count))
+    which = np.flatnonzero(low[2] > _THROUGH * low[3])
+    high = look(which, np.ones(len(which)))
+    through = -high[2] > _THROUGH * high[3]
+    low, which, high = low[:, which[through]], which[through], high[:, through]
     for turn in range(_ROUNDS):
         (a, fa, ga, _), (b, fb, gb, _) = low, high
         on = np.flatnonzero((ga > 0) & (gb < 0) & (fb * ga - fa * gb > _WITHIN * (b - a) * ga * gb))
