@@ -9,6 +9,7 @@ import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
+from itertools import product
 from math import log2
 
 import numpy as np
@@ -76,22 +77,38 @@ def pymcubes(scene: Scene, cells: int) -> Surface:
     return _placed(vertices, cells), faces
 
 
-def sparse_batches(scene: Scene, cells: int, merged: bool) -> Surface:
+def sparse_batches(scene: Scene, cells: int, exact: bool, merged: bool) -> Surface:
     """Batches of 32^3 cells as fogleman/sdf has them, in a pool of threads, those without surface passed by.
 
-    That program passes by what a distance at the batch's centre rules out; exact bounds rule out more and never too much.
-    `merged` joins vertices at the seams whose rounded coordinates agree, else they are left double.
+    That program passes by what the distance at a batch's centre rules out, where its corners are on one side. `exact`: by our
+    exact bounds instead, which rule out more, and never too much. `merged` joins vertices at the seams whose rounded coordinates
+    agree, else they are left double.
     """
     terms, nodes = Terms.of(scene), axis(cells)
     starts = np.arange(0, cells, BATCH)
     first = np.stack(np.meshgrid(starts, starts, starts, indexing="ij"), axis=-1).reshape(-1, 3)
-    lower, upper = box_bounds(terms, nodes[first], nodes[np.minimum(first + BATCH, cells)])
+    low, high = nodes[first], nodes[np.minimum(first + BATCH, cells)]
+    chosen = _by_bounds(terms, low, high) if exact else _by_distance(terms, low, high)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        found = list(pool.map(partial(_batch, terms, nodes), first[(lower <= 0) & (upper > 0)]))
+        found = list(pool.map(partial(_batch, terms, nodes), first[chosen]))
     shift = np.cumsum([0] + [len(vertices) for vertices, _ in found])
     vertices = _placed(np.concatenate([vertices for vertices, _ in found]), cells)
     faces = np.concatenate([faces + start for (_, faces), start in zip(found, shift[:-1], strict=True)])
     return _merged(vertices, faces) if merged else (vertices, faces)
+
+
+def _by_bounds(terms: Terms, low: Floats, high: Floats) -> NDArray[np.bool_]:
+    lower, upper = box_bounds(terms, low, high)
+    return (lower <= 0) & (upper > 0)
+
+
+def _by_distance(terms: Terms, low: Floats, high: Floats) -> NDArray[np.bool_]:
+    """Whether the centre is no further than the corners, judged by the steepest slope at any, or these are on two sides."""
+    corners = np.where(np.array(list(product([False, True], repeat=3)))[:, None], high, low)
+    values, slopes = near_linear_gradient(terms, np.concatenate([corners, (low + high)[None] / 2]))
+    distance = np.abs(values[-1]) / np.max(np.linalg.norm(slopes, axis=-1))
+    inside = values[:-1] > 0
+    return (distance <= np.linalg.norm(high - low, axis=1) / 2) | (inside.any(axis=0) != inside.all(axis=0))
 
 
 def isomesh(scene: Scene, cells: int) -> Surface:
@@ -114,8 +131,10 @@ MESHERS: dict[str, Mesher] = {
     "dense, scikit-image": scikit_image,
     "dense, VTK flying edges": flying_edges,
     "dense, PyMCubes": pymcubes,
-    "sparse batches": partial(sparse_batches, merged=False),
-    "sparse batches, merged": partial(sparse_batches, merged=True),
+    "sparse batches": partial(sparse_batches, exact=False, merged=False),
+    "sparse batches, merged": partial(sparse_batches, exact=False, merged=True),
+    "sparse batches by our bounds": partial(sparse_batches, exact=True, merged=False),
+    "the same, merged": partial(sparse_batches, exact=True, merged=True),
     "isomesh": isomesh,
 }
 ABSENT = "Not compared: libfive, whose package on PyPI holds bindings alone, without the library."
