@@ -117,11 +117,13 @@ def _raise(base: Array, exponent: float, out: Array) -> None:
     if not _by_factors(exponent):
         np.power(base, exponent, out=out)
         return
-    out[:] = base
+    raised = base
     for digit in f"{int(exponent):b}"[1:]:
-        out *= out
+        raised = np.multiply(raised, raised, out=out)
         if digit == "1":
             out *= base
+    if raised is base:
+        out[:] = base
 
 
 def _by_logarithm(terms: Terms, u: Array, total: Array) -> Array:

@@ -21,6 +21,8 @@ _FURTHEST = 6e-5
 # Not after faces that are further off than this share of a cell or whose corners' normals have a cosine below this.
 _SMOOTH = 0.1
 _ALIKE = 0.8
+# What a face counts beside how far it is off: more than twice what those about any vertex can be off together.
+_ONE = 2.0**32
 
 Steps = NDArray[np.float32]
 
@@ -43,12 +45,10 @@ class Balance(NamedTuple):
     def pulls(self, faces: Faces, off: Steps, normals: NDArray[np.float32]) -> NDArray[np.float32]:
         """The sum of `off` (F,) over the smooth faces about each vertex, and their number, (V, 2); `normals` (V, 3)."""
         smooth = (np.abs(off) < _SMOOTH / QUANTUM) & alike(normals, faces, _ALIKE)
-        off = np.where(smooth, off, 0)
-        result = np.zeros((2, len(normals)))
-        for i in range(3):
-            result[0] += np.bincount(faces[:, i], off, len(normals))
-            result[1] += np.bincount(faces[:, i], smooth, len(normals))
-        return result.T.astype(np.float32)
+        both = np.where(smooth, off.astype(float) + _ONE, 0.0)  # whole numbers: their sums can be told apart again
+        total = sum(np.bincount(corner, both, len(normals)) for corner in faces.T)
+        number = np.rint(total / _ONE)
+        return np.stack([total - number * _ONE, number]).T.astype(np.float32)
 
     def steps(self, pulls: NDArray[np.float32]) -> Steps:
         """How far vertices move out, (n,), by their `pulls` (n, 2)."""
