@@ -46,7 +46,7 @@ _FIRST, _LAST = 0.15, 0.95
 # times smaller.
 _LOOSE, _FINER = 1.2, 4.0
 # Neighbouring blocks that make one job: enough for NumPy's calls to be worth it, few enough to stay small in memory.
-RUN = 4800
+RUN = 6400
 # Seconds between two looks at whether a piece is done, or no longer wanted.
 _LOOK = 0.1
 # The coarsest step between numbers, as a share of the longest side.
