@@ -17,18 +17,20 @@ from hqmodel.field import Terms
 
 from .measure import QUANTUM
 from .mesh import Array, Faces, Triangles, alike, dots, lengths, marks, unit
-from .splits import Indices, Part, Plane
+from .splits import Indices, Part, Plane, spans
 
 # Ends whose normals' cosine is less than this look different ways.
-_SHARP = 0.95
+_SHARP = 0.98
 _ROUNDS = 3
 # By how much less sharp than that a face with such an edge may look, when its normals are in single precision.
 _SLACK = 1e-3
-# An edge is split where the surface is further from it than this share of a cell, and not next to its ends.
-_OFF = 0.025
-_ASIDE = 0.05
+# An edge is split where that adds a triangle of this share of a cell's square, not next to its ends, and not at a point that is
+# further away than so many times its length.
+_GAIN = 0.008
+_ASIDE = 0.01
+_FAR = 4.0
 # No edge of a face is looked at whose middle is nearer to the surface than so many quanta.
-_ROUGH = _OFF / 10 / QUANTUM
+_ROUGH = 0.0025 / QUANTUM
 
 
 class Creased(NamedTuple):
@@ -63,20 +65,21 @@ def creased(
 ) -> Creased | None:
     """The mesh with edges split at its creases; None where there are none.
 
-    `normals` (V, 3) are the vertices'; only edges between `sharp` vertices (V,) are looked at, and none between `pinched` ones
-    (V,), as more than two faces may meet there. Edges in one of the `planes` (axis, coordinate) are split in it. `still` is
+    `normals` (V, 3) are the vertices'; only edges between `sharp` vertices (V,) are looked at, and none that more than two faces
+    meet in, which are between `pinched` ones (V,). Edges in one of the `planes` (axis, coordinate) are split in it. `still` is
     called again and again; whatever it raises ends the work.
     """
     near = marks(sharp, faces) >= 2
     corners, which = np.unique(faces[near], return_inverse=True)
     part = Part(terms, vertices[corners], which.reshape(-1, 3), planes, still)
-    sharp, pinched = sharp[corners], pinched[corners]
+    sharp, crowded = sharp[corners], part.crowded(pinched[corners])
+    changed = 0
     for _ in range(_ROUNDS):
-        edges = part.edges()
+        edges = part.edges(changed)
         old = np.flatnonzero(edges[:, 1] < len(corners))
         ends = edges[old].T
-        barred = ~np.logical_and(*sharp[ends]) | np.logical_and(*pinched[ends])
-        part.split(*crossings(part, np.delete(edges, old[barred], axis=0), cell))
+        barred = ~np.logical_and(*sharp[ends]) | np.logical_and(*crowded[ends])
+        changed = part.split(*crossings(part, np.delete(edges, old[barred], axis=0), cell))
     if len(part.points) == len(corners):
         return None
     number = np.append(corners, np.arange(len(part.points) - len(corners)) + len(vertices)).astype(np.int32)
@@ -94,12 +97,13 @@ def crossings(part: Part, edges: Indices, cell: float) -> tuple[Indices, Array]:
     a, b, held = part.points[first], part.points[second], part.held(edges)
     m, n = (unit(np.where(held, 0.0, part.normals[end])) for end in (first, second))
     rows = np.flatnonzero(dots(m, n) < _SHARP)
-    a, b, held = a[rows], b[rows], held[rows]
-    points, arrived = part.reached((a + b) / 2, _meeting(a, b, m[rows], n[rows], cell), cell, held)
-    along = b - a
-    share = dots(points - a, along) / np.maximum(dots(along, along), 1e-300)
-    away = lengths(points - a - share[:, None] * along)
-    good = arrived & (away > _OFF * cell) & (away < lengths(along)) & (share > _ASIDE) & (share < 1 - _ASIDE)
+    a, b, held, m, n = a[rows], b[rows], held[rows], m[rows], n[rows]
+    points, arrived = part.reached((a + b) / 2, _meeting(a, b, m, n), cell, held)
+    along, way = b - a, unit(m + n)
+    aside = along - dots(along, way)[:, None] * way
+    share = dots(points - a, aside) / np.maximum(dots(aside, aside), 1e-300)
+    near = lengths(points - a - share[:, None] * along) < _FAR * lengths(along)
+    good = arrived & near & (share > _ASIDE) & (share < 1 - _ASIDE) & (spans(a, points, b) > _GAIN * cell**2)
     return edges[rows[good]], points[good]
 
 
@@ -110,10 +114,16 @@ def _in_order(points: Array, edges: Indices) -> tuple[Indices, Indices]:
     return np.where(back, edges[:, 1], edges[:, 0]), np.where(back, edges[:, 0], edges[:, 1])
 
 
-def _meeting(a: Array, b: Array, m: Array, n: Array, cell: float) -> Array:
-    """Where the planes through a and b with normals m and n meet, (k, 3), nearest to the middle between a and b."""
-    middle, cosine = (a + b) / 2, dots(m, n)
-    p, q = dots(m, a - middle), dots(n, b - middle)
-    scale = np.maximum(1 - cosine * cosine, 1e-3)
-    step = ((p - cosine * q) / scale)[:, None] * m + ((q - cosine * p) / scale)[:, None] * n
-    return middle + step * np.minimum(1, cell / np.maximum(lengths(step), 1e-300))[:, None]
+def _meeting(a: Array, b: Array, m: Array, n: Array) -> Array:
+    """Where the planes through a and b with normals m and n meet, (k, 3), and that which a, b and m + n span.
+
+    Seen along m + n such points lie on their edges, so that the parts of faces beside them do not fold.
+    """
+    along = b - a
+    below, above = -dots(m, along), dots(n, along)  # how far b is below the plane through a, and a below that through b
+    between = below * above > 0
+    total = np.where(between, below + above, 1.0)
+    height = np.where(between, below * above, 0.0) / total / np.maximum(1 + dots(m, n), 1e-12)
+    step = height[:, None] * (m + n)
+    most = _FAR * lengths(along) / np.maximum(lengths(step), 1e-300)
+    return a + np.where(between, above / total, 0.5)[:, None] * along + step * np.minimum(1, most)[:, None]

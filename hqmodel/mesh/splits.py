@@ -22,6 +22,8 @@ _LEAN = 0.1
 ARRIVED = 1e-5
 # Steps towards it, of this share of a cell at most.
 _ROUNDS, _STRIDE = 16, 0.1
+# After so many steps only those go on that have not arrived.
+_FIRST = 4
 
 
 class Part:
@@ -50,7 +52,12 @@ class Part:
         moved, last = np.empty_like(points), np.empty(len(points))
         for here in slices(len(points)):
             self._still()
-            moved[here], last[here] = to_surface(self._terms, points[here], stride, rounds, held[here])
+            moved[here], last[here] = to_surface(self._terms, points[here], stride, min(rounds, _FIRST), held[here])
+        far = np.flatnonzero(last > ARRIVED * stride) if rounds > _FIRST else ()
+        for here in slices(len(far)):
+            self._still()
+            some = far[here]
+            moved[some], last[some] = to_surface(self._terms, moved[some], stride, rounds - _FIRST, held[some])
         return moved, last
 
     def reached(self, start: Array, end: Array, cell: float, held: NDArray[np.bool_]) -> tuple[Array, NDArray[np.bool_]]:
@@ -62,10 +69,21 @@ class Part:
         points[lost], arrived[lost] = crossed(self._terms, start[lost], end[lost], self._still)
         return points, arrived
 
-    def edges(self) -> Indices:
-        """All edges (n, 2), the lower vertex first."""
+    def edges(self, first: int = 0) -> Indices:
+        """All edges (n, 2) of the faces from the first on, the lower vertex first."""
         count = len(self.points)
-        return np.stack(np.divmod(np.unique(_sides(self.faces, count)), count), axis=1)
+        return np.stack(np.divmod(np.unique(_sides(self.faces[first:], count)), count), axis=1)
+
+    def crowded(self, pinched: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """The ends, (V,), of edges that more than two faces meet in, or may in a mirror plane if the ends are `pinched` (V,)."""
+        count = len(self.points)
+        sides, times = np.unique(_sides(self.faces, count), return_counts=True)
+        edges = np.stack(np.divmod(sides, count), axis=1)
+        suspect = np.flatnonzero(np.logical_and(*pinched[edges.T]))
+        edges = edges[suspect]
+        result = np.zeros(count, dtype=bool)
+        result[edges[(times[suspect] > 2) | self.held(edges).any(axis=1)]] = True
+        return result
 
     def held(self, edges: Indices) -> NDArray[np.bool_]:
         """Which coordinates the edges (n, 2) have in common with a plane that they lie in, (n, 3)."""
@@ -74,23 +92,31 @@ class Part:
             held[:, axis] |= np.all(self.points[edges, axis] == plane, axis=1)
         return held
 
-    def split(self, edges: Indices, middles: Array) -> None:
-        """Split edges (n, 2), given as `edges` gives them, at middles (n, 3), but for those that faces would suffer by."""
+    def split(self, edges: Indices, middles: Array) -> int:
+        """Split edges (n, 2), given as `edges` gives them, at middles (n, 3), but for those that faces would suffer by.
+
+        Of the edges of such a face the one goes whose split would add least. The first of the new faces, which come last.
+        """
+        a, b = self.points[edges.T]
+        gains = spans(a, middles, b)
         while len(edges):
             self._still()
             points = np.concatenate([self.points, middles])
             faces, parent, uses = _pieces(self.faces, edges, points)
             fresh = np.concatenate([self.normals, self.normals[edges[:, 0]] + self.normals[edges[:, 1]]])
             bad = _misshapen(points, self._faced(points, fresh, faces, parent), faces)
-            unwanted = np.zeros(len(edges), dtype=bool)
-            unwanted[np.setdiff1d(uses[np.unique(parent[bad])], -1)] = True
-            if not unwanted.any():
+            if not bad.any():
                 whole = np.delete(np.arange(len(self.faces)), np.unique(parent))
                 self.faces = np.concatenate([self.faces[whole], faces])
                 self.origin = self.origin[np.concatenate([whole, parent])]
                 self.points, self.normals = points, np.concatenate([self.normals, self.looking(middles)])
-                return
-            edges, middles = edges[~unwanted], middles[~unwanted]
+                return len(whole)
+            uses = uses[np.unique(parent[bad])]
+            gain = np.where(uses < 0, np.inf, gains[uses])
+            kept = np.ones(len(edges), dtype=bool)
+            kept[uses[gain == np.min(gain, axis=1, keepdims=True)]] = False
+            edges, middles, gains = edges[kept], middles[kept], gains[kept]
+        return len(self.faces)
 
     def _faced(self, points: Array, normals: Array, faces: Indices, parent: Indices) -> Array:
         """The ways that faces (n, 3) are to look, (n, 3): as their corners do, but in a plane as their parents (n,) did."""
@@ -100,6 +126,11 @@ class Part:
             a, b, c = (self.points[self.faces[parent[flat], i]] for i in range(3))
             towards[flat] = unit(crosses(b - a, c - a))
         return towards
+
+
+def spans(a: Array, b: Array, c: Array) -> Array:
+    """Twice the areas (n,) of triangles with corners a, b, c, (n, 3) each."""
+    return lengths(crosses(b - a, c - a))
 
 
 def _sides(faces: Indices, count: int) -> Indices:
