@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -129,6 +130,18 @@ def test_creases_are_sharp(turn: float) -> None:
     h = np.stack([Terms.of(block).normal @ normal for normal in across / np.linalg.norm(across, axis=1, keepdims=True)])
     area = np.linalg.norm(across, axis=1)
     assert np.sum(area[np.max(np.abs(h), axis=1) > 0.999]) > 0.96 * np.sum(area)
+
+
+@pytest.mark.parametrize("thick", [0.02, 0.04])
+@pytest.mark.parametrize("turn", [0.3, 0.6, 2.0])
+def test_acute_rims_of_thin_plates_are_whole(turn: float, thick: float) -> None:
+    """Plates one and two cells thick, whose sides slant: their volume in closed form, that of a ball of a p-norm."""
+    rotation = (np.sin(turn / 2) * 0.6, np.sin(turn / 2) * 0.48, np.sin(turn / 2) * 0.64, np.cos(turn / 2))
+    sides = [((1.0, 0.0, 1.5), 0.5), ((0.0, 1.0, -1.0), 1.0), (Z, thick / 2)]
+    strips = tuple(Strip(normal=n, half_width=width, gamma=60) for n, width in sides)
+    mesh = polygonize(Scene(shapes=(Shape(strips=strips, transform=Transform(rotation=rotation)),)), 100)
+    sound(mesh)
+    assert report(mesh)["volume"] == pytest.approx(2 * thick * math.gamma(1 + 1 / 60) ** 3 / math.gamma(1 + 3 / 60), rel=1e-3)
 
 
 @pytest.mark.parametrize("name", ["mirrored", "two_holes", "sphere", "astroid", "cuboctahedron"])
