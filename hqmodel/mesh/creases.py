@@ -17,16 +17,16 @@ from hqmodel.field import Terms
 
 from .measure import QUANTUM
 from .mesh import Array, Faces, Triangles, alike, dots, lengths, marks, unit
-from .splits import Indices, Part, Plane, spans
+from .splits import Indices, Part, Plane, areas
 
 # Ends whose normals' cosine is less than this look different ways.
-_SHARP = 0.98
+_SHARP = 0.97
 _ROUNDS = 3
 # By how much less sharp than that a face with such an edge may look, when its normals are in single precision.
 _SLACK = 1e-3
 # An edge is split where that adds a triangle of this share of a cell's square, not next to its ends, and not at a point that is
 # further away than so many times its length.
-_GAIN = 0.008
+_GAIN = 0.005
 _ASIDE = 0.01
 _FAR = 4.0
 # No edge of a face is looked at whose middle is nearer to the surface than so many quanta.
@@ -103,7 +103,7 @@ def crossings(part: Part, edges: Indices, cell: float) -> tuple[Indices, Array]:
     aside = along - dots(along, way)[:, None] * way
     share = dots(points - a, aside) / np.maximum(dots(aside, aside), 1e-300)
     near = lengths(points - a - share[:, None] * along) < _FAR * lengths(along)
-    good = arrived & near & (share > _ASIDE) & (share < 1 - _ASIDE) & (spans(a, points, b) > _GAIN * cell**2)
+    good = arrived & near & (share > _ASIDE) & (share < 1 - _ASIDE) & (areas(a, points, b) > _GAIN * cell**2)
     return edges[rows[good]], points[good]
 
 

@@ -95,10 +95,11 @@ class Part:
     def split(self, edges: Indices, middles: Array) -> int:
         """Split edges (n, 2), given as `edges` gives them, at middles (n, 3), but for those that faces would suffer by.
 
-        Of the edges of such a face the one goes whose split would add least. The first of the new faces, which come last.
+        Of the edges of such a face first that is left whole whose split would add least. Returns the number of the first new
+        face; these come last.
         """
         a, b = self.points[edges.T]
-        gains = spans(a, middles, b)
+        gains = areas(a, middles, b)
         while len(edges):
             self._still()
             points = np.concatenate([self.points, middles])
@@ -128,9 +129,9 @@ class Part:
         return towards
 
 
-def spans(a: Array, b: Array, c: Array) -> Array:
-    """Twice the areas (n,) of triangles with corners a, b, c, (n, 3) each."""
-    return lengths(crosses(b - a, c - a))
+def areas(a: Array, b: Array, c: Array) -> Array:
+    """Of triangles with corners a, b, c, (n, 3) each, (n,)."""
+    return lengths(crosses(b - a, c - a)) / 2
 
 
 def _sides(faces: Indices, count: int) -> Indices:
