@@ -22,8 +22,6 @@ _LEAN = 0.1
 ARRIVED = 1e-5
 # Steps towards it, of this share of a cell at most.
 _ROUNDS, _STRIDE = 16, 0.1
-# After so many steps only those go on that have not arrived.
-_FIRST = 4
 
 
 class Part:
@@ -52,12 +50,7 @@ class Part:
         moved, last = np.empty_like(points), np.empty(len(points))
         for here in slices(len(points)):
             self._still()
-            moved[here], last[here] = to_surface(self._terms, points[here], stride, min(rounds, _FIRST), held[here])
-        far = np.flatnonzero(last > ARRIVED * stride) if rounds > _FIRST else ()
-        for here in slices(len(far)):
-            self._still()
-            some = far[here]
-            moved[some], last[some] = to_surface(self._terms, moved[some], stride, rounds - _FIRST, held[some])
+            moved[here], last[here] = to_surface(self._terms, points[here], stride, rounds, held[here])
         return moved, last
 
     def reached(self, start: Array, end: Array, cell: float, held: NDArray[np.bool_]) -> tuple[Array, NDArray[np.bool_]]:
