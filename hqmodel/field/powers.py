@@ -7,7 +7,6 @@ a positive and a negative power both saturate their logarithms decide.
 from __future__ import annotations
 
 from functools import lru_cache
-from itertools import pairwise
 
 import numpy as np
 
@@ -92,21 +91,27 @@ def over_runs(rows: Array, starts: Indices) -> Array:
 
 def power(base: Array, exponents: Array) -> Array:
     """base ** exponents[:, None], (n, P), for bases >= 0; by multiplication where an exponent is a small whole number."""
-    runs = _alike(exponents.tobytes())
-    if len(runs) * 4 > len(exponents) and not any(_by_factors(exponent) for exponent, _ in runs):
+    kinds = _kinds(exponents.tobytes())
+    if len(kinds) * 4 > len(exponents) and not any(_by_factors(kind) for kind, _ in kinds):
         return base ** exponents[:, None]
     result = np.empty(np.broadcast_shapes(base.shape, (len(exponents), 1)))
-    for exponent, rows in runs:
-        _raise(base[rows if len(base) > 1 else slice(None)], exponent, result[rows])
+    for kind, rows in kinds:
+        some = base[rows] if len(base) > 1 else base
+        if isinstance(rows, slice):
+            _raise(some, kind, result[rows])
+        else:
+            part = np.empty((len(rows), base.shape[1]))
+            _raise(some, kind, part)
+            result[rows] = part
     return result
 
 
-@lru_cache(maxsize=1024)
-def _alike(exponents: bytes) -> list[tuple[float, slice]]:
-    """Runs of equal exponents, float64."""
+@lru_cache(maxsize=256)
+def _kinds(exponents: bytes) -> list[tuple[float, slice | Indices]]:
+    """The different ones of float64 exponents, and which are of each kind."""
     values = np.frombuffer(exponents)
-    ends = [*np.flatnonzero(np.diff(values)) + 1, len(values)]
-    return [(float(values[start]), slice(start, end)) for start, end in pairwise([0, *ends])]
+    which = [(float(kind), np.flatnonzero(values == kind)) for kind in np.unique(values)]
+    return [(kind, slice(rows[0], rows[-1] + 1) if rows[-1] - rows[0] < len(rows) else rows) for kind, rows in which]
 
 
 def _by_factors(exponent: float) -> bool:
@@ -114,6 +119,7 @@ def _by_factors(exponent: float) -> bool:
 
 
 def _raise(base: Array, exponent: float, out: Array) -> None:
+    """base ** exponent, into `out`."""
     if not _by_factors(exponent):
         np.power(base, exponent, out=out)
         return

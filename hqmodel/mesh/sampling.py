@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from functools import cache
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,6 +22,8 @@ Indices = NDArray[np.intp]
 _ROUNDING = 1e-13
 # Cells along a side of the cubes by which terms are left out: whole blocks.
 CUBE = 64
+# So many of these are remembered: what two runs of blocks pass through.
+_CUBES = 512
 # What a strip bounds may be thinner than a cell somewhere when it is thinner than so many at most.
 _THIN = 4.0
 # It tapers to less than a cell where that takes so many cells.
@@ -59,12 +61,13 @@ class ThinStrip(NamedTuple):
 
 
 def by_cube(terms: Terms, grid: Grid) -> Callable[[int], Terms]:
-    """The terms that matter in each cube of cells, by its number: worked out once."""
+    """The terms that matter in each cube of cells, by its number: of the last ones looked at they are known."""
 
+    @lru_cache(maxsize=_CUBES)
     def within(cube: int) -> Terms:
         return relevant(terms, grid, (cube // ALONG % ALONG[1])[None] * CUBE, CUBE)
 
-    return cache(within)
+    return within
 
 
 class Sampling:
@@ -102,10 +105,10 @@ class Sampling:
     def of_blocks(self, first: Numbers) -> Samples:
         """The same at blocks' own nodes, (4, 4, 4, n), by the blocks' first ones (n, 3), to the last bit."""
         values = np.empty((BLOCK, BLOCK, BLOCK, len(first)), dtype=np.float32)
+        every = np.arange(len(first))
         for part, terms in self._parts(first):
-            for start in range(0, len(part), _BLOCKS):
+            for which in np.split(every[part], range(_BLOCKS, len(every[part]), _BLOCKS)):
                 self._still()
-                which = part[start : start + _BLOCKS]
                 ways = [first[which, i] + _STEPS for i in range(3)]
                 points = (nodes.take(way, mode="clip") for nodes, way in zip(self._grid.nodes, ways, strict=True))
                 values[..., which] = near_linear_single(terms, lattice_log_ratio(terms, *points), _ROUNDING)
@@ -125,10 +128,10 @@ class Sampling:
         slopes *= self._grid.steps
         return values, slopes[np.arange(len(axis)), axis], lengths(slopes)
 
-    def _parts(self, nodes: NDArray[Any]) -> Iterator[tuple[Indices, Terms]]:
-        """The nodes (n, 3) that lie in a cube together, by their numbers, and the terms that matter in it."""
+    def _parts(self, nodes: NDArray[Any]) -> Iterator[tuple[Indices | slice, Terms]]:
+        """The nodes (n, 3) that lie in a cube together, and the terms that matter in it."""
         if len(self._terms) < 2 or not len(nodes):
-            yield np.arange(len(nodes)), self._terms
+            yield slice(None), self._terms
             return
         cube = (nodes.astype(np.int64) // CUBE) @ ALONG
         order = np.argsort(cube, kind="stable")
