@@ -49,6 +49,8 @@ _LOOSE, _FINER = 1.2, 4.0
 RUN = 6400
 # Seconds between two looks at whether a piece is done, or no longer wanted.
 _LOOK = 0.1
+LEAST = 1500
+_EVEN = 4
 # The coarsest step between numbers, as a share of the longest side.
 _COARSEST = 1e-7
 
@@ -157,8 +159,9 @@ def _pieces(scene: Scene, terms: Terms, balance: Balance, tell: Callable[[float]
     every, size = tiles(terms, balance.grid)
     found = _in_order(partial(blocks_of, terms, balance.grid, size), list(every), waiting, threading.Event())
     blocks = np.concatenate([np.empty((0, 3), dtype=np.int32), *found], dtype=np.int32, casting="same_kind")
-    ends = range(RUN, len(blocks) + RUN, RUN)
-    runs: list[Blocks] = [blocks[end - RUN : end] for end in ends]
+    run = ceil(len(blocks) / _runs(len(blocks)))
+    ends = range(run, len(blocks) + run, run)
+    runs: list[Blocks] = [blocks[end - run : end] for end in ends]
     work = partial(_piece, scene, terms, by_cube(terms, balance.grid), balance, stopped)
     pieces = _in_order(work, runs, waiting, stopped)
     for piece, end in zip(pieces, ends, strict=True):
@@ -166,6 +169,14 @@ def _pieces(scene: Scene, terms: Terms, balance: Balance, tell: Callable[[float]
         if piece is not None:
             yield piece, share
         waiting()
+
+
+def _runs(blocks: int) -> int:
+    """How many jobs so many blocks make: the same on every machine, as the order of vertices follows from it."""
+    count = _EVEN * ceil(blocks / (_EVEN * RUN))
+    while count > 1 and blocks < LEAST * count:
+        count //= 2
+    return count
 
 
 def _in_order(

@@ -180,6 +180,7 @@ def test_runs_of_blocks_leave_no_trace(name: str, monkeypatch: pytest.MonkeyPatc
     meshes = []
     for run in (40, 400, 3000, 10**6):
         monkeypatch.setattr("hqmodel.mesh.build.RUN", run)
+        monkeypatch.setattr("hqmodel.mesh.build.LEAST", 1)
         meshes.append(polygonize(lenses() if name == "lenses" else case(name).scene, 70))
     corners = [{face.tobytes() for face in mesh.vertices[mesh.faces]} for mesh in meshes]
     assert len(corners[0]) == len(meshes[0].faces)
