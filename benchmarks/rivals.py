@@ -134,7 +134,7 @@ MESHERS: dict[str, Mesher] = {
     "sparse batches": partial(sparse_batches, exact=False, merged=False),
     "sparse batches, merged": partial(sparse_batches, exact=False, merged=True),
     "sparse batches by our bounds": partial(sparse_batches, exact=True, merged=False),
-    "the same, merged": partial(sparse_batches, exact=True, merged=True),
+    "sparse batches by our bounds, merged": partial(sparse_batches, exact=True, merged=True),
     "isomesh": isomesh,
 }
 ABSENT = "Not compared: libfive, whose package on PyPI holds bindings alone, without the library."

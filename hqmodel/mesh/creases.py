@@ -26,7 +26,7 @@ _ROUNDS = 3
 _SLACK = 1e-3
 # An edge is split where that adds a triangle of this share of a cell's square, not next to its ends, and not at a point that is
 # further away than so many times its length.
-_GAIN = 0.005
+_GAIN = 0.006
 _ASIDE = 0.01
 _FAR = 4.0
 # No edge of a face is looked at whose middle is nearer to the surface than so many quanta.
