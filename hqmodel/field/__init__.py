@@ -8,9 +8,6 @@ from .evaluate import (
     lattice_log_ratio,
     log_gradient,
     log_ratio,
-    near_linear,
-    near_linear_gradient,
-    near_linear_single,
     shaping_strip,
     term_weights,
     value,
@@ -27,6 +24,7 @@ from .rays import first_hits
 from .region import Region, reaches, region, sharing
 from .solvers import Evolved, Lattice, lattice_search, normal_evolution
 from .starlike import NotStarShaped, star_centre
+from .straight import near_linear, near_linear_gradient, near_linear_single
 from .symmetry import mirror_axes
 from .terms import Terms, images, rotation_matrix, world_planes
 

@@ -11,10 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .evaluate import log_ratio, near_linear_gradient
+from .evaluate import log_ratio
 from .powers import over_runs
 from .rays import box_interval
 from .region import Region, reaches
+from .straight import near_linear_gradient
 from .terms import Array, Indices, Terms
 
 # A last step, and an error, this share of the region's diagonal is none.

@@ -10,8 +10,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .evaluate import log_ratio, near_linear_gradient
+from .evaluate import log_ratio
 from .region import Region
+from .straight import near_linear_gradient
 from .terms import Array, Indices, Terms
 
 _PRECISE = 1e-12

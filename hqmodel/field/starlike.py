@@ -9,11 +9,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from .evaluate import log_ratio, near_linear_gradient
+from .evaluate import log_ratio
 from .intervals import box_bounds, box_ranges, term_bounds
 from .powers import over_runs
 from .rays import first_hits
 from .region import Region
+from .straight import near_linear_gradient
 from .symmetry import mirror_axes
 from .terms import Array, Terms
 

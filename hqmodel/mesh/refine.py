@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from itertools import pairwise
-from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hqmodel.field import Terms, log_ratio, near_linear, near_linear_gradient
 
+from .edges import Askew, Edges
 from .extract import AT_NODE
 from .grid import Grid
-from .mesh import Array, dots, lengths, rows, unit
+from .mesh import Array, lengths, rows
 from .sampling import Samples
 
 # A vertex nearer to a node than this share of the edge is moved off it and back onto the surface sideways, so that the
@@ -49,22 +48,22 @@ def place_vertices(
     caps, bent = axis == AT_NODE, np.zeros(len(axis), dtype=bool) if aside is None else aside.any(axis=(1, 2))
     straight = np.flatnonzero(~(caps | bent))
     if len(straight) == len(axis):
-        return _placed(terms, grid, _Edges.of(grid, node, axis, ends), node, _CROWDED, still)
+        return _placed(terms, grid, Edges.of(grid, node, axis, ends), node, _CROWDED, still)
     points, slopes = np.empty((len(axis), 3), order="F"), np.empty((len(axis), 3), order="F")
     points[caps] = grid.points(node[caps] if aside is None else node[caps] + aside[caps, 0])
     slopes[caps] = near_linear_gradient(terms, points[caps])[1]
     if straight.size:
-        edges = _Edges.of(grid, rows(node, straight), axis[straight], ends[straight])
+        edges = Edges.of(grid, rows(node, straight), axis[straight], ends[straight])
         points[straight], slopes[straight] = _placed(terms, grid, edges, rows(node, straight), _CROWDED, still)
     bent &= ~caps
     if aside is not None and bent.any():
-        askew = _Askew.of(grid, node[bent], axis[bent], ends[bent], aside[bent])
+        askew = Askew.of(grid, node[bent], axis[bent], ends[bent], aside[bent])
         points[bent], slopes[bent] = _placed(terms, grid, askew, node[bent], _SPREAD, still)
     return points, slopes
 
 
 def _placed(
-    terms: Terms, grid: Grid, edges: _Edges | _Askew, node: NDArray[np.int64], apart: float, still: Callable[[], None]
+    terms: Terms, grid: Grid, edges: Edges | Askew, node: NDArray[np.int64], apart: float, still: Callable[[], None]
 ) -> tuple[Array, Array]:
     """As `place_vertices`; none stays nearer to a node than the share `apart` of its edge."""
     points, slopes, share = _on_edges(terms, edges, still)
@@ -79,81 +78,7 @@ def _placed(
     return points, slopes
 
 
-class _Edges(NamedTuple):
-    """Edges of the grid: from `start` (n, 3) along `axis` (n,), so `long` (n,); `ends` (n, 2) are the samples at both ends.
-
-    They are in the order of their axes.
-    """
-
-    start: Array
-    axis: NDArray[np.int64]
-    long: Array
-    ends: Samples
-
-    @classmethod
-    def of(cls, grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64], ends: Samples) -> _Edges:
-        long = [np.diff(grid.nodes[i]).take(node[here, i]) for i, here in enumerate(_by_axis(axis))]
-        return cls(grid.points(node), axis, np.concatenate(long), ends)
-
-    def some(self, which: NDArray[np.intp]) -> _Edges:
-        """Some of them."""
-        return _Edges(*(rows(values, which) for values in self))
-
-    def at(self, share: Array) -> Array:
-        """The points (n, 3) at those shares (n,) of the edges."""
-        points = self.start.copy(order="F")
-        for i, here in enumerate(_by_axis(self.axis)):
-            points[here, i] += self.long[here] * share[here]
-        return points
-
-    def aside(self, apart: float, share: Array, points: Array, slopes: Array) -> Array:
-        """The points (n, 3) at those shares (n,) moved off the nearer node, along the edge."""
-        return self.at(np.clip(share, apart, 1 - apart))
-
-    def gain(self, slopes: Array) -> Array:
-        """How much a field with the gradients (n, 3) gains along each, (n,)."""
-        return np.concatenate([slopes[here, i] for i, here in enumerate(_by_axis(self.axis))]) * self.long
-
-
-def _by_axis(axis: NDArray[np.int64]) -> list[slice]:
-    """Which of the ascending axes (n,) are the first, the second and the third."""
-    ends = np.searchsorted(axis, range(4)).tolist()
-    return [slice(*pair) for pair in pairwise(ends)]
-
-
-class _Askew(NamedTuple):
-    """Edges of the grid of which an end has moved: from `start` (n, 3) as far as `way` (n, 3); the rest is as for `_Edges`."""
-
-    start: Array
-    way: Array
-    axis: NDArray[np.int64]
-    ends: NDArray[np.floating[Any]]
-
-    @classmethod
-    def of(cls, grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64], ends: Samples, aside: Array) -> _Askew:
-        start = grid.points(node + aside[:, 0])
-        return cls(start, grid.points(node + np.eye(3)[axis] + aside[:, 1]) - start, axis, ends)
-
-    def some(self, which: NDArray[np.intp]) -> _Askew:
-        """Some of them."""
-        return _Askew(self.start[which], self.way[which], self.axis[which], self.ends[which])
-
-    def at(self, share: Array) -> Array:
-        """The points (n, 3) at those shares (n,) of the edges."""
-        return self.start + share[:, None] * self.way
-
-    def aside(self, apart: float, share: Array, points: Array, slopes: Array) -> Array:
-        """The points (n, 3) at those shares (n,) moved off the nearer node, along the surface, as across a sheet is no room."""
-        normal = unit(slopes)
-        way = self.way - dots(self.way, normal)[:, None] * normal
-        return points + np.where(share < 0.5, apart, -apart)[:, None] * way
-
-    def gain(self, slopes: Array) -> Array:
-        """How much a field with the gradients (n, 3) gains along each, (n,)."""
-        return dots(slopes, self.way)
-
-
-def _on_edges(terms: Terms, edges: _Edges | _Askew, still: Callable[[], None]) -> tuple[Array, Array, Array]:
+def _on_edges(terms: Terms, edges: Edges | Askew, still: Callable[[], None]) -> tuple[Array, Array, Array]:
     """Where edges meet the surface: the points (n, 3), the gradients there (n, 3), and the shares of the edges (n,).
 
     One Newton step from where the samples at the ends put it, as these are nearly linear; where that is not enough, a root.
@@ -176,7 +101,7 @@ def crossed(terms: Terms, start: Array, end: Array, still: Callable[[], None]) -
     """Where ways from start to end, (n, 3) each, pass through the surface, (n, 3), and whether they do: end beyond it, (n,)."""
     ends = np.stack([near_linear(terms, log_ratio(terms, points)) for points in (start, end)]).T
     through = (ends[:, 0] > 0) != (ends[:, 1] > 0)
-    ways = _Askew(start, end - start, np.zeros(len(start), dtype=np.int64), ends).some(np.flatnonzero(through))
+    ways = Askew(start, end - start, np.zeros(len(start), dtype=np.int64), ends).some(np.flatnonzero(through))
     points = end.copy()
     points[through] = ways.at(_roots(terms, ways, still))
     return points, through
@@ -192,7 +117,7 @@ def _held(grid: Grid, node: NDArray[np.int64], axis: NDArray[np.int64]) -> NDArr
     return held
 
 
-def _roots(terms: Terms, edges: _Edges | _Askew, still: Callable[[], None]) -> Array:
+def _roots(terms: Terms, edges: Edges | Askew, still: Callable[[], None]) -> Array:
     """Shares (n,) of edges at which the field is 0, by Chandrupatla's method (1997, Adv. Eng. Software 28).
 
     The samples at the ends are of opposite sign. The bracket of each root shrinks below `_PRECISE` of its edge, by inverse
