@@ -14,17 +14,18 @@ from hqmodel.model import Scene
 from .asks import ExportSettings
 
 if TYPE_CHECKING:
-    from hqmodel.mesh import Bending
+    from hqmodel.mesh import Bending, Count
 
 Kind = tuple[str, bool, bool]
 
 
 @dataclass(frozen=True)
 class Coarse:
-    """What the coarse mesh came to: triangles, bytes in the format, error as a share of its longest side, and how it bends."""
+    """What the coarse mesh came to: triangles, bytes for each in the format, error as a share of its longest side, and how it
+    bends."""
 
-    faces: int
-    size: int
+    count: Count
+    size: float
     error: float
     bending: Bending
 
@@ -66,7 +67,7 @@ class Forecast:
             stream = BytesIO()
             mesh.write(mesh.fitted(shaded, suffix), stream, suffix)
             error = (body.surface_error or 0.0) / bending.side
-            self._known[kind] = Coarse(len(body.faces), len(stream.getvalue()), error, bending)
+            self._known[kind] = Coarse(mesh.Count.of(body), len(stream.getvalue()) / len(body.faces), error, bending)
         except mesh.MeshError:
             self._known[kind] = None  # the export itself will say why
         finally:
@@ -77,22 +78,18 @@ def _told(coarse: Coarse, settings: ExportSettings) -> str:
     """A smooth surface's error goes with the size of its triangles."""
     from hqmodel import mesh
 
-    every = mesh.expected_faces(coarse.faces, settings.resolution)
+    every = coarse.count.at(settings.resolution)
     faces = min(every, settings.target_faces or every)
-    size = coarse.size / coarse.faces * faces
-    error = coarse.error * coarse.faces / faces
-    lack = mesh.lack_of_room(coarse.faces, settings.resolution, settings.target_faces is not None)
-    return lack or f"about {_short(faces)} triangles, {_short(size)}B, within {error:.2g} of the longest side"
+    error = coarse.error * sum(coarse.count) / faces
+    lack = mesh.lack_of_room(coarse.count, settings.resolution, settings.target_faces is not None)
+    return lack or f"about {_short(faces)} triangles, {_short(coarse.size * faces)}B, within {error:.2g} of the longest side"
 
 
 def _told_within(coarse: Coarse, settings: ExportSettings, tolerance: float) -> str:
     """How many triangles that takes is less sure than how many a resolution gives; but there are no more than that."""
-    from hqmodel import mesh
-
     share = tolerance / (settings.size or coarse.bending.side)
-    faces = min(coarse.bending.faces(share), mesh.expected_faces(coarse.faces, coarse.bending.cells(share)))
-    size = coarse.size / coarse.faces * faces
-    return f"perhaps {_short(faces)} triangles, {_short(size)}B: an estimate, by how the body bends"
+    faces = min(coarse.bending.faces(share), coarse.count.at(coarse.bending.cells(share)))
+    return f"perhaps {_short(faces)} triangles, {_short(coarse.size * faces)}B: an estimate, by how the body bends"
 
 
 def _short(number: float) -> str:

@@ -6,7 +6,7 @@ from .measure import report
 from .mesh import Mesh, MeshError, Quads
 from .placing import FORMATS, METRES, SIZES, UP_AXIS, fitted, in_world, sized
 from .radial import radial_quads
-from .room import expected_faces, lack_of_room, must_have_room
+from .room import Count, lack_of_room, must_have_room
 from .thin import Thin, thin_parts
 from .tolerance import COARSE, Bending, finer
 
@@ -20,12 +20,12 @@ __all__ = [
     "UP_AXIS",
     "USUAL_RESOLUTION",
     "Bending",
+    "Count",
     "Mesh",
     "MeshError",
     "Progress",
     "Quads",
     "Thin",
-    "expected_faces",
     "finer",
     "fitted",
     "in_world",

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import os
 from math import sqrt
+from typing import NamedTuple
+
+import numpy as np
 
 from hqmodel import memory
 from hqmodel.model import Scene
 
 from .build import polygonize
-from .mesh import MeshError
+from .mesh import Mesh, MeshError, crosses
 from .tolerance import COARSE
 
 # Bytes that meshing, measuring and writing want at the most: for each triangle, or each that there was before they were
@@ -21,21 +24,42 @@ _QUAD = 600.0
 _MOST = 60.0
 
 
-def expected_faces(coarse: int, resolution: int) -> float:
-    """Triangles at that resolution of a body that has so many at `COARSE` cells: they go with its square."""
-    return coarse * (resolution / COARSE) ** 2
+class Count(NamedTuple):
+    """A mesh's triangles at `COARSE` cells: those that marching cubes lays over the surface, `plain`, whose number goes with the
+    square of the resolution, and those that creases add, which goes with the resolution itself."""
+
+    plain: float
+    added: float
+
+    @classmethod
+    def of(cls, coarse: Mesh) -> Count:
+        """A face has twice as many triangles as lines of the grid cross it, and each line across a cell's square is one."""
+        a, b, c = (coarse.vertices[corner] for corner in coarse.faces.T)
+        crossed = float(np.abs(crosses(b - a, c - a)).sum()) / 2
+        cell = float(np.max(np.ptp(coarse.vertices, axis=0))) / COARSE
+        plain = min(2 * crossed / cell**2, len(coarse.faces))
+        return cls(plain, len(coarse.faces) - plain)
+
+    def at(self, resolution: float) -> float:
+        """The triangles to be expected at that resolution."""
+        finer = resolution / COARSE
+        return self.plain * finer**2 + self.added * finer
+
+    def finest(self, faces: float) -> float:
+        """The resolution that so many triangles are to be expected at."""
+        return 2 * faces * COARSE / (self.added + sqrt(self.added**2 + 4 * self.plain * faces))
 
 
-def lack_of_room(coarse: int, resolution: int, reducing: bool) -> str:
+def lack_of_room(count: Count, resolution: int, reducing: bool) -> str:
     """Why there is no memory for such a mesh, and up to which resolution there is; empty where there is.
 
-    `coarse`: how many triangles the body has at `COARSE` cells. `reducing`: whether they are to become fewer.
+    `reducing`: whether its triangles are to become fewer.
     """
     each, rest, free = _REDUCED if reducing else _FACE, _rest(), memory.available()
-    needed = rest + each * expected_faces(coarse, resolution)
+    needed = rest + each * count.at(resolution)
     if needed <= free:
         return ""
-    return _lack(int(COARSE * sqrt(max(0.0, free - rest) / (each * coarse))), free, resolution, needed)
+    return _lack(int(count.finest(max(0.0, free - rest) / each)), free, resolution, needed)
 
 
 def must_have_room(scene: Scene, resolution: int, reducing: bool = False) -> None:
@@ -43,10 +67,10 @@ def must_have_room(scene: Scene, resolution: int, reducing: bool = False) -> Non
     if _rest() + _REDUCED * _MOST * resolution**2 <= memory.available():
         return
     try:
-        coarse = len(polygonize(scene, COARSE, shading=False).faces)
+        count = Count.of(polygonize(scene, COARSE, shading=False))
     except MeshError:
         return  # the finer one will say what is wrong
-    lack = lack_of_room(coarse, resolution, reducing)
+    lack = lack_of_room(count, resolution, reducing)
     if lack:
         raise MeshError(lack)
 
