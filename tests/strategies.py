@@ -11,6 +11,8 @@ from hqmodel.model import FIELDS, Number, Scene, Shape
 
 # Beyond the sliders, but short of where sums of squares overflow.
 LARGE = 1e6
+# Of random numbers.
+SEEDS = st.integers(0, 2**32 - 1)
 
 
 def numbers(number: Number) -> st.SearchStrategy[float]:

@@ -45,12 +45,11 @@ _FIRST, _LAST = 0.15, 0.95
 # A body so many times smaller than its region is meshed again, with cells that are its own longest side's, but at most so many
 # times smaller.
 _LOOSE, _FINER = 1.2, 4.0
-# Neighbouring blocks that make one job: enough for NumPy's calls to be worth it, few enough to stay small in memory.
-RUN = 6400
+# Neighbouring blocks that make one job: no more, so that it stays small in memory, and where there are several jobs no fewer, so
+# that NumPy's calls are worth it. Where there are enough blocks jobs come in so many, even ones.
+RUN, LEAST, _EVEN = 6400, 1500, 4
 # Seconds between two looks at whether a piece is done, or no longer wanted.
 _LOOK = 0.1
-LEAST = 1500
-_EVEN = 4
 # The coarsest step between numbers, as a share of the longest side.
 _COARSEST = 1e-7
 

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from hqmodel.field import Terms
 
 from .measure import QUANTUM
-from .mesh import Array, Faces, Triangles, alike, dots, lengths, marks, unit
-from .splits import Indices, Part, Plane, areas
+from .mesh import Array, Faces, Triangles, alike, areas, dots, lengths, marks, unit
+from .splits import Indices, Part, Plane
 
 # Ends whose normals' cosine is less than this look different ways.
 _SHARP = 0.97
@@ -72,14 +72,13 @@ def creased(
     near = marks(sharp, faces) >= 2
     corners, which = np.unique(faces[near], return_inverse=True)
     part = Part(terms, vertices[corners], which.reshape(-1, 3), planes, still)
-    sharp, crowded = sharp[corners], part.crowded(pinched[corners])
-    changed = 0
+    edges, meeting = part.edges()
+    sharp, crowded = sharp[corners], _crowded(part, edges, meeting, pinched[corners])
     for _ in range(_ROUNDS):
-        edges = part.edges(changed)
         old = np.flatnonzero(edges[:, 1] < len(corners))
         ends = edges[old].T
         barred = ~np.logical_and(*sharp[ends]) | np.logical_and(*crowded[ends])
-        changed = part.split(*crossings(part, np.delete(edges, old[barred], axis=0), cell))
+        edges, _ = part.edges(part.split(*crossings(part, np.delete(edges, old[barred], axis=0), cell)))
     if len(part.points) == len(corners):
         return None
     number = np.append(corners, np.arange(len(part.points) - len(corners)) + len(vertices)).astype(np.int32)
@@ -89,6 +88,16 @@ def creased(
         np.concatenate([faces[~near], number[part.faces]]),
         np.concatenate([np.flatnonzero(~near), np.flatnonzero(near)[part.origin]]),
     )
+
+
+def _crowded(part: Part, edges: Indices, meeting: Indices, pinched: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """The ends, (V,), of edges (n, 2) that more than two faces meet in: `meeting` (n,) on this side of the planes, and in one of
+    them maybe as many beyond. Only those between `pinched` vertices (V,) are looked at."""
+    suspect = np.flatnonzero(np.logical_and(*pinched[edges.T]))
+    edges = edges[suspect]
+    result = np.zeros(len(pinched), dtype=bool)
+    result[edges[(meeting[suspect] > 2) | part.held(edges).any(axis=1)]] = True
+    return result
 
 
 def crossings(part: Part, edges: Indices, cell: float) -> tuple[Indices, Array]:

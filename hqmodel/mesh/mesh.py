@@ -93,6 +93,11 @@ def crosses(a: Array, b: Array) -> Array:
     return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]).T
 
 
+def areas(a: Array, b: Array, c: Array) -> Array:
+    """Of triangles with corners a, b, c, (n, 3) each, (n,)."""
+    return lengths(crosses(b - a, c - a)) / 2
+
+
 def reflected(mesh: Mesh, axis: int) -> Mesh:
     """The mesh together with its exact mirror image in the plane where coordinate `axis` is 0, joined along it.
 

@@ -33,7 +33,7 @@ class Count(NamedTuple):
 
     @classmethod
     def of(cls, coarse: Mesh) -> Count:
-        """A face has twice as many triangles as lines of the grid cross it, and each line across a cell's square is one."""
+        """Two triangles for each crossing of a line of the grid, of which there is one to each square of a cell's sides."""
         a, b, c = (coarse.vertices[corner] for corner in coarse.faces.T)
         crossed = float(np.abs(crosses(b - a, c - a)).sum()) / 2
         cell = float(np.max(np.ptp(coarse.vertices, axis=0))) / COARSE

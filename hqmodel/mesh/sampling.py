@@ -107,7 +107,8 @@ class Sampling:
         values = np.empty((BLOCK, BLOCK, BLOCK, len(first)), dtype=np.float32)
         every = np.arange(len(first))
         for part, terms in self._parts(first):
-            for which in np.split(every[part], range(_BLOCKS, len(every[part]), _BLOCKS)):
+            here = every[part]
+            for which in np.split(here, range(_BLOCKS, len(here), _BLOCKS)):
                 self._still()
                 ways = [first[which, i] + _STEPS for i in range(3)]
                 points = (nodes.take(way, mode="clip") for nodes, way in zip(self._grid.nodes, ways, strict=True))

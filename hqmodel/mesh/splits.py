@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from hqmodel.field import Terms, near_linear_gradient
 
-from .mesh import Array, crosses, dots, lengths, slices, unit
+from .mesh import Array, areas, crosses, dots, lengths, slices, unit
 from .refine import crossed, to_surface
 
 Indices = NDArray[np.intp]
@@ -62,21 +62,11 @@ class Part:
         points[lost], arrived[lost] = crossed(self._terms, start[lost], end[lost], self._still)
         return points, arrived
 
-    def edges(self, first: int = 0) -> Indices:
-        """All edges (n, 2) of the faces from the first on, the lower vertex first."""
+    def edges(self, first: int = 0) -> tuple[Indices, Indices]:
+        """All edges (n, 2) of the faces from the first on, the lower vertex first, and how many of these meet in each, (n,)."""
         count = len(self.points)
-        return np.stack(np.divmod(np.unique(_sides(self.faces[first:], count)), count), axis=1)
-
-    def crowded(self, pinched: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """The ends, (V,), of edges that more than two faces meet in, or may in a mirror plane if the ends are `pinched` (V,)."""
-        count = len(self.points)
-        sides, times = np.unique(_sides(self.faces, count), return_counts=True)
-        edges = np.stack(np.divmod(sides, count), axis=1)
-        suspect = np.flatnonzero(np.logical_and(*pinched[edges.T]))
-        edges = edges[suspect]
-        result = np.zeros(count, dtype=bool)
-        result[edges[(times[suspect] > 2) | self.held(edges).any(axis=1)]] = True
-        return result
+        sides, meeting = np.unique(_sides(self.faces[first:], count), return_counts=True)
+        return np.stack(np.divmod(sides, count), axis=1), meeting
 
     def held(self, edges: Indices) -> NDArray[np.bool_]:
         """Which coordinates the edges (n, 2) have in common with a plane that they lie in, (n, 3)."""
@@ -120,11 +110,6 @@ class Part:
             a, b, c = (self.points[self.faces[parent[flat], i]] for i in range(3))
             towards[flat] = unit(crosses(b - a, c - a))
         return towards
-
-
-def areas(a: Array, b: Array, c: Array) -> Array:
-    """Of triangles with corners a, b, c, (n, 3) each, (n,)."""
-    return lengths(crosses(b - a, c - a)) / 2
 
 
 def _sides(faces: Indices, count: int) -> Indices:

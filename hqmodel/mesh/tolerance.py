@@ -15,7 +15,7 @@ from hqmodel.field import Terms, curvature, near_linear_gradient
 
 from .creases import crossings
 from .decimate import simplified
-from .mesh import Array, Mesh, Triangles, crosses, dots, lengths, marks
+from .mesh import Array, Mesh, Triangles, areas, dots, lengths, marks
 from .splits import ARRIVED, Indices, Part
 from .stars import Bools, Near
 from .surface import STEPS, Surface
@@ -102,9 +102,9 @@ class Bending(NamedTuple):
         linear, slope = near_linear_gradient(terms, vertices)
         there = np.abs(linear) < _THERE * side * lengths(slope)
         a, b, c = vertices[faces.T]
-        areas = np.bincount(faces.ravel(), np.repeat(lengths(crosses(b - a, c - a)) / 6, 3), len(vertices))
+        shares = np.bincount(faces.ravel(), np.repeat(areas(a, b, c) / 3, 3), len(vertices))
         most, least = ((np.abs(mean) + spread) * there, np.abs(np.abs(mean) - spread) * there)
-        return cls(most * side, least * side, areas / side**2, side)
+        return cls(most * side, least * side, shares / side**2, side)
 
     def cells(self, tolerance: float) -> int:
         """How many cells along the longest side a tolerance asks for, which is a share of that side.
@@ -157,7 +157,7 @@ def _refined(surface: Surface, vertices: Array, faces: Triangles, off: Array, mo
         edges, middles, there = _splits(surface, part, off[near], most)
         part.split(*crossings(part, edges, surface.cell))
         count = len(part.points)
-        there &= np.isin(edges @ (count, 1), part.edges() @ (count, 1))  # those that no crease splits
+        there &= np.isin(edges @ (count, 1), part.edges()[0] @ (count, 1))  # those that no crease splits
         part.split(edges[there], middles[there])
         if len(part.points) == len(corners):
             break

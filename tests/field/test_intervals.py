@@ -12,9 +12,7 @@ from hqmodel.field.intervals import box_tops
 from hqmodel.model import Scene
 
 from ..cases import NAMES, case
-from ..strategies import scenes
-
-SEEDS = st.integers(0, 2**32 - 1)
+from ..strategies import SEEDS, scenes
 
 
 @given(scenes(), SEEDS, st.sampled_from([1e-6, 1e-2, 0.3, 3.0, 1e4]))

@@ -12,9 +12,7 @@ from hqmodel.field import Terms, lattice_log_ratio, log_ratio
 from hqmodel.field.powers import power
 from hqmodel.model import Scene
 
-from ..strategies import scenes
-
-SEEDS = st.integers(0, 2**32 - 1)
+from ..strategies import SEEDS, scenes
 
 
 @given(scenes(), SEEDS, st.sampled_from([1e-3, 1.0, 1e3]))
